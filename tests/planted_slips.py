@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import cache
 from importlib.resources import files
+from itertools import pairwise
 
 import attrs
 import numpy as np
@@ -52,9 +53,7 @@ class TrialTable:
         return "\n".join(lines) + "\n"
 
 
-def table_text(
-    x: FloatArray, z: FloatArray, y: FloatArray, write: Callable[[float], str]
-) -> str:
+def table_text(x: FloatArray, z: FloatArray, y: FloatArray, write: Callable[[float], str]) -> str:
     """A table with stations by x."""
     rows = [
         f"{a:.9g}," + ",".join("" if np.isnan(each) else write(each) for each in row)
@@ -129,7 +128,7 @@ def slip(table: PrintedOffsets, i: int, j: int, kind: str, random: Random) -> st
     digits = [k for k, letter in enumerate(text) if letter.isdigit()]
     letters = list(text)
     if kind == "swap":
-        pairs = [(a, b) for a, b in zip(digits, digits[1:], strict=False) if text[a] != text[b]]
+        pairs = [(a, b) for a, b in pairwise(digits) if text[a] != text[b]]
         if not pairs:
             return None
         a, b = pairs[random.integers(len(pairs))]
@@ -244,4 +243,3 @@ def trial(
     cells = cells_seen(table.printed)[int(edge)]
     random = np.random.default_rng(seed)
     return [outcome(table, each) for each in planted(table, cells, count, random, size, kinds)]
-

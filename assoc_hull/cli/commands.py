@@ -160,8 +160,8 @@ examples:
   assoc-hull check ship.hull --json
   assoc-hull plot ship.hull -o lines.pdf
 
-exit codes: 0 done; 1 findings (check, doctor, verify, an edit refused or not made); 2 bad input or usage;
-3 an imported hull is not sound
+exit codes: 0 done; 1 findings (check, doctor, verify, an edit refused or not made); 2 bad input or
+usage; 3 an imported hull is not sound
 """
 
 _COMMANDS = (

@@ -27,7 +27,15 @@ from assoc_hull.fairing.table_rules import (
 )
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["ALARM", "DoctorReport", "OffsetFinding", "PrintedOffsets", "SlipNumber", "checked_directions", "examine"]
+__all__ = [
+    "ALARM",
+    "DoctorReport",
+    "OffsetFinding",
+    "PrintedOffsets",
+    "SlipNumber",
+    "checked_directions",
+    "examine",
+]
 
 ALARM = 15.0
 """A score above this is called a slip: no sound table that was tried has one."""

@@ -13,6 +13,7 @@ Examples
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 __all__ = ["SLIPS", "exchanged_digits", "moved_points", "other_digits", "single_slips"]
 
@@ -24,7 +25,7 @@ def exchanged_digits(text: str) -> tuple[str, ...]:
     """Give the numbers with two neighbouring digits exchanged, the point between them or not."""
     digits = _digits(text)
     found = []
-    for a, b in zip(digits, digits[1:], strict=False):
+    for a, b in pairwise(digits):
         if text[a] != text[b]:
             found.append(f"{text[:a]}{text[b]}{text[a + 1 : b]}{text[a]}{text[b + 1 :]}")
     return tuple(each for each in found if _natural(each, text))

@@ -126,9 +126,7 @@ class TableWindows:
         cells, along_of, beside = (np.concatenate(each) for each in zip(none, *found, strict=True))
         rounded = np.broadcast_to(unit, checked.shape).ravel()[cells].max(axis=1, initial=0.0)
         weights = np.concatenate([np.zeros((0, WINDOW)), *coefficients])
-        return cls(
-            (checked.shape[0], checked.shape[1]), cells, weights, along_of, beside, rounded
-        )
+        return cls((checked.shape[0], checked.shape[1]), cells, weights, along_of, beside, rounded)
 
     def of_cells(self) -> CellWindows:
         """Turn the windows round: give those that hold each cell."""

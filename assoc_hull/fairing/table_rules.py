@@ -11,7 +11,15 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["EQUAL", "LONE", "SHARED", "TableRemark", "equal_neighbours", "lone_values", "shared_factors"]
+__all__ = [
+    "EQUAL",
+    "LONE",
+    "SHARED",
+    "TableRemark",
+    "equal_neighbours",
+    "lone_values",
+    "shared_factors",
+]
 
 
 LONE, SHARED, EQUAL = "lone value", "shared factor", "equal neighbours"

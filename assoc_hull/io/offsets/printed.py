@@ -30,8 +30,9 @@ def printed_offsets(sheet: OffsetSheet, hints: OffsetHints, name: str) -> Printe
     half, worth = _digits(sheet, hints)
     in_eighths = sheet.printed_unit == "ft"
     # As many decimals as the waterline has, and no 0 before the point where it has none.
-    decimals = [max(len(cell.partition(".")[2]) for cell in each) for each in zip(*text, strict=True)]
-    bare = [any(cell.startswith(".") for cell in each) for each in zip(*text, strict=True)]
+    lines = tuple(zip(*text, strict=True))
+    decimals = [max(len(cell.partition(".")[2]) for cell in each) for each in lines]
+    bare = [any(cell.startswith(".") for cell in each) for each in lines]
 
     def write(value: float, j: int) -> str:
         if in_eighths:

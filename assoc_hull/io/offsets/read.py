@@ -22,11 +22,6 @@ from assoc_hull.io.offsets.damage import (
     examine_bottom,
     examine_lines,
 )
-from assoc_hull.io.offsets.suspicions import (
-    ExaminedTable,
-    examine_offsets,
-    most_half_breadth,
-)
 from assoc_hull.io.offsets.hints import OffsetHints, read_hints
 from assoc_hull.io.offsets.printed import printed_offsets, rows_in_order
 from assoc_hull.io.offsets.scale import (
@@ -41,6 +36,11 @@ from assoc_hull.io.offsets.scale import (
     station_places,
 )
 from assoc_hull.io.offsets.sheet import OffsetColumn, OffsetSheet, read_sheet
+from assoc_hull.io.offsets.suspicions import (
+    ExaminedTable,
+    examine_offsets,
+    most_half_breadth,
+)
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.reports import Notebook, OffsetReport
 from assoc_hull.io.tables.column_names import column_name
