@@ -260,7 +260,7 @@ def examine(table: PrintedOffsets, top: int = 10) -> DoctorReport:
         _remarks(table, checked),
         int(told.all(axis=1).sum()),
         int(single.sum()),
-        _unchecked(table, checked, told.any(axis=1).reshape(checked.shape)),
+        _unchecked(table, checked, np.asarray(told.any(axis=1)).reshape(checked.shape)),
     )
 
 

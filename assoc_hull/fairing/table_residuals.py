@@ -113,7 +113,7 @@ class TableWindows:
         ):
             if len(places) < WINDOW:
                 continue
-            whole = sliding_window_view(inside, WINDOW, axis=0).all(axis=2)
+            whole = np.asarray(sliding_window_view(inside, WINDOW, axis=0).all(axis=2))
             start, line = np.nonzero(whole)
             own = np.full((whole.shape[0], whole.shape[1] + 6), -1)
             own[start, line + 3] = count + np.arange(len(start))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -43,7 +44,7 @@ def written(path: Path, text: str) -> Path:
     return path
 
 
-FORMS = {
+FORMS: dict[str, Callable[[PlainTable], str]] = {
     "commas": lambda table: table.text(),
     "semicolons and decimal commas": lambda table: table.text(";", comma=True),
     "tabs": lambda table: table.text("\t"),
