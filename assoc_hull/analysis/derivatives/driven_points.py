@@ -49,15 +49,22 @@ class DrivenPoints:
     @classmethod
     def of(cls, state: HullState, net: CurveNet) -> DrivenPoints:
         """Take them from the tables; one without a plane or a place on its driver stays."""
+        return cls.among(state, net.curve, net.batch, net.normal)
+
+    @classmethod
+    def among(
+        cls, state: HullState, curves: IntArray, batch: SplineBatch, normals: FloatArray
+    ) -> DrivenPoints:
+        """Take those between given curves (m,), with their shapes and normals of planes (m, 3)."""
         table, number = state.rows, np.full(state.curves.count + 1, -1)
-        number[net.curve] = np.arange(len(net.curve))
+        number[curves] = np.arange(len(curves))
         row = state.live("rows")
         row = row[table.driver[row] >= 0]
         side = (table.curve[row, 0] != table.driver[row]).astype(np.int64)
         driver, reader = (number[table.curve[row, each]] for each in (side, 1 - side))
-        place, normal = table.parameter[row, side], net.normal[reader]
+        place, normal = table.parameter[row, side], normals[reader]
         good = (driver >= 0) & (reader >= 0) & np.isfinite(place) & np.isfinite(normal).all(axis=1)
-        segment, u = locate_parameters(net.batch, driver[good], place[good])
+        segment, u = locate_parameters(batch, driver[good], place[good])
         return cls(row[good], segment, u, normal[good])
 
     def rates(self, points: FloatArray) -> FloatArray:

@@ -30,4 +30,5 @@ def batten_coefficients(nodes: FloatArray) -> FloatArray:
     apart = nodes[:, :, None] - nodes[:, None, :]
     apart[:, np.arange(WINDOW), np.arange(WINDOW)] = 1.0
     found: FloatArray = 1.0 / apart.prod(axis=2)
-    return found / np.abs(found).max(axis=1, keepdims=True)
+    found /= np.abs(found).max(axis=1, keepdims=True)
+    return found

@@ -1,0 +1,187 @@
+"""The batten residuals of a whole net at once, and how they change when its points move.
+
+At each defining point r = m . sum_j c_j P_j, in metres normal to the hull: c are the coefficients
+of `assoc_hull.geometry.fairness.batten`, at fixed chord parameters, and m = e (e . n), e the normal
+of the curve in its plane and n that of the hull. So r = A d + b for displacements d of the points
+that may move, each along its own freedom; points that are computed from curves follow these.
+No window runs across a knuckle or a tangent point.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+from scipy.sparse import coo_array, csr_array
+
+from assoc_hull.analysis.fairness.driven_rates import driven_rates, follow
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.fairness.batten import WINDOW, batten_coefficients
+from assoc_hull.model.kinds import Sort
+from assoc_hull.model.tables import HullState
+
+__all__ = ["BattenProblem", "batten_problem"]
+
+_LEAST = 0.15
+"""|e . n| is taken as no less: where a curve is almost square to the hull it says little."""
+
+_SHORT = 1e-9
+
+
+@attrs.frozen(eq=False)
+class BattenProblem:
+    """Residuals r = `matrix` d + `residual` of a net, for displacements d of points that move.
+
+    Attributes
+    ----------
+    rows : (k,) int
+        The points that may move, by key.
+    moves : (k, 3)
+        Where a unit displacement, 1 m along the hull's normal, leads each: U U^T n / |U^T n|^2.
+    freedom : (k,)
+        |U^T n|: a displacement d is a move of d / |U^T n| along the point's freedom.
+    matrix : (r, k) sparse
+        How residuals change with displacements.
+    residual : (r,), m
+        The residuals as the net is.
+    curve, centre : (r,) int, (r,) int
+        Curve and point of each residual.
+    rates : (rows, k) sparse
+        Displacements of all points of the table, computed ones too, with those that move.
+    all_moves : (rows, 3)
+        As `moves`, of all points of the table.
+    """
+
+    rows: IntArray
+    moves: FloatArray
+    freedom: FloatArray
+    matrix: csr_array
+    residual: FloatArray
+    curve: IntArray
+    centre: IntArray
+    rates: csr_array
+    all_moves: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.rows, self.moves, self.freedom, self.residual, self.curve, self.centre)
+        freeze(self.all_moves)
+
+    def part(self, chosen: IntArray) -> BattenProblem:
+        """Give the problem in which only some of the points move, by their places in `rows`.
+
+        Residuals that none of these changes are left out.
+        """
+        matrix = csr_array(self.matrix[:, chosen])
+        some = np.flatnonzero(np.diff(matrix.indptr))
+        return BattenProblem(
+            self.rows[chosen], self.moves[chosen], self.freedom[chosen], csr_array(matrix[some]),
+            self.residual[some], self.curve[some], self.centre[some],
+            csr_array(self.rates[:, chosen]), self.all_moves,
+        )  # fmt: skip
+
+    def shifted(self, displacement: FloatArray) -> BattenProblem:
+        """Give the problem about the net displaced by (k,), m; weights and directions stay."""
+        residual = self.residual + self.matrix @ displacement
+        return attrs.evolve(self, residual=residual)
+
+    def places(self, xyz: FloatArray, displacement: FloatArray) -> FloatArray:
+        """Give where all points (rows, 3), m, come to with displacements (k,), to first order."""
+        found: FloatArray = xyz + self.all_moves * (self.rates @ displacement)[:, None]
+        return found
+
+
+def batten_problem(
+    state: HullState, rows: IntArray, normal: FloatArray, along: FloatArray
+) -> BattenProblem:
+    """Put the residuals of all curves of a net together.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    rows : (k,) int
+        The points that may move, in the order wanted.
+    normal, along : (rows, 3)
+        Of all points of the table: the unit outward normal of the hull, and what a point's freedom
+        is of it, U U^T n.
+    """
+    curves = np.array(
+        [each for each in state.live("curves").tolist() if state.curves.spline.data[each]],
+        np.int64,
+    )
+    batch = SplineBatch.join([state.spline(each) for each in curves.tolist()])
+    line = state.curves.line[curves]
+    flat = state.lines.planar[line]
+    planes = np.where(flat[:, None], state.lines.normal[line], np.nan)
+    freedom, moves = _moves(state, rows, along)
+    rates = follow(driven_rates(state, curves, batch, planes, moves), rows)
+    window = _windows(state, curves, batch, np.diff(rates.indptr) > 0)
+    row = _defining(state, curves)
+    point = row[window]
+    owner = np.searchsorted(batch.start, window[:, 2], side="right") - 1
+    measure = _measures(batch, window[:, 2], planes[owner], normal[point[:, 2]])
+    weight = batten_coefficients(batch.knot[window])
+    residual = np.einsum("rj,rji,ri->r", weight, state.rows.xyz.data[point], measure)
+    change = weight * np.einsum("rji,ri->rj", moves[point], measure)
+    index = np.repeat(np.arange(len(window)), WINDOW), point.ravel()
+    shape = len(window), len(moves)
+    direct = csr_array(coo_array((change.ravel(), index), shape=shape))
+    return BattenProblem(
+        rows, moves[rows], freedom, csr_array(direct @ rates), residual,
+        curves[owner], point[:, 2], rates, moves,
+    )  # fmt: skip
+
+
+def _defining(state: HullState, curves: IntArray) -> IntArray:
+    return np.concatenate([state.curves.rows.data[each] for each in curves.tolist()])
+
+
+def _moves(state: HullState, rows: IntArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give |U^T n| of the points that may move, and where a unit displacement leads all points.
+
+    Computed points whose freedom is almost tangential are moved by 1 m along it.
+    """
+    length = np.sqrt((along * along).sum(axis=1))
+    good = length >= state.tolerances.field_normal
+    divisor = np.where(good, length * length, np.where(length > _SHORT, length, np.inf))
+    moves = along / divisor[:, None]
+    table = state.rows
+    follows = (table.driver.data >= 0) | (table.anchor.data >= 0).any(axis=1)
+    follows &= table.alive.data & (table.sort.data != Sort.PLACED)
+    follows[rows] = True
+    moves[~follows] = 0.0
+    return length[rows], moves
+
+
+def _windows(
+    state: HullState, curves: IntArray, batch: SplineBatch, moved: np.typing.NDArray[np.bool_]
+) -> IntArray:
+    """Give the windows of five points, as places in the batch, in which some point is moved."""
+    row = _defining(state, curves)
+    side = np.concatenate([state.curves.side.data[each] for each in curves.tolist()])
+    broken = state.rows.kind.data[row, side] != 0
+    first = np.arange(max(len(row) - WINDOW + 1, 0))
+    owner = np.repeat(np.arange(len(curves)), np.diff(batch.start))
+    whole = owner[first] == owner[first + WINDOW - 1]
+    for inner in range(1, WINDOW - 1):
+        whole &= ~broken[first + inner]
+    window = first[whole][:, None] + np.arange(WINDOW)
+    found: IntArray = window[moved[row[window]].any(axis=1)]
+    return found
+
+
+def _measures(
+    batch: SplineBatch, knot: IntArray, plane: FloatArray, normal: FloatArray
+) -> FloatArray:
+    """Give m = e (e . n) at knots (r,): in the plane of the curve, or square to it in space."""
+    tangent = batch.leave[knot] + batch.arrive[knot]
+    tangent /= np.sqrt((tangent * tangent).sum(axis=1))[:, None]
+    planar = np.isfinite(plane[:, 0])
+    across = np.cross(np.where(planar[:, None], plane, 0.0), tangent)
+    beside = normal - (normal * tangent).sum(axis=1)[:, None] * tangent
+    e = np.where(planar[:, None], across, beside)
+    length = np.sqrt((e * e).sum(axis=1))
+    e /= np.where(length > _SHORT, length, 1.0)[:, None]
+    cosine = (e * normal).sum(axis=1)
+    unknown = ~(normal != 0.0).any(axis=1)
+    size = np.where(unknown, 1.0, np.maximum(np.abs(cosine), _LEAST))
+    return e * np.where(cosine < 0.0, -size, size)[:, None]
