@@ -235,7 +235,7 @@ class DoctorReport:
         return "\n".join(lines)
 
 
-_NAMED = 8
+_NAMED = 4
 """So many cells that were not checked are named in the text."""
 
 
@@ -370,8 +370,9 @@ def _remarks(table: PrintedOffsets, checked: NDArray[np.bool_]) -> tuple[TableRe
         found.append(TableRemark(LONE, table.where(i, j), what, float(table.y[i, j])))
     for axis, k, factor in shared_factors(np.round(table.y / table.step)):
         line = f"waterline {table.waterlines[k]}" if axis else f"station {table.stations[k]}"
-        times = factor * float(table.step[k] / table.worth[k]) if axis else factor
-        of = f"{times:g}" if axis else f"{factor} of their last digits"
+        digit = (table.step / table.worth)[k : k + 1] if axis else table.step / table.worth
+        uneven = float(np.ptp(digit)) > 0.0
+        of = f"{factor} last digits" if uneven else f"{factor * float(digit[0]):g}"
         what = f"all its numbers are multiples of {of}, others are not: doubled, or read coarser?"
         found.append(TableRemark(SHARED, line, what, float(factor)))
     for axis, i, j in equal_neighbours(table.y, table.step, checked):

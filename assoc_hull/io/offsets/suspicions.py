@@ -132,9 +132,9 @@ def _values(patient: ExaminedTable, printed: PrintedOffsets, book: Notebook) -> 
     """Note what the doctor of offsets calls a slip, and what its rules say."""
     told = examine(printed, top=0)
     for remark in told.remarks:
-        # A line that is read coarser than others is no slip; whether it is doubled, the lines tell.
-        note = book.assume if remark.kind == SHARED else book.suspect
-        note(remark.kind, remark.where, remark.what, remark.amount)
+        # Lines are read coarser than others for many reasons; one that is doubled is a misfit.
+        if remark.kind != SHARED:
+            book.suspect(remark.kind, remark.where, remark.what, remark.amount)
     for slip in told.alarms:
         off = slip.off * float(printed.worth[slip.column]) * patient.printed
         value = float(printed.y[slip.row, slip.column]) * patient.printed
