@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.fairness.batten import WINDOW, batten_coefficients
 
-__all__ = ["CellWindows", "TableMisfits", "TableWindows"]
+__all__ = ["CellWindows", "TableMisfits", "TableWindows", "best_change", "robust_scale"]
 
 _BESIDE = np.array([-1, 1, -2, 2, -3, 3])
 """The lines that are asked for a residual, nearest first; four of them for its expected value."""
 
-_ENOUGH = 3
+_FOUR, _ENOUGH = 4, 3
 """Fewer lines than this have no say: the residual is expected to be 0."""
 
 _SPREAD, _ROUNDED = 1.5, 1.4
@@ -155,16 +155,8 @@ class TableWindows:
         `y` is the flattened table; what stands in cells that are not checked is not looked at.
         """
         residual = (y[self.cells] * self.coefficients).sum(axis=1)
-        there = self.beside >= 0
-        beside = np.where(there, residual[self.beside], np.nan)
-        told = there.sum(axis=1) >= _ENOUGH
-        # Where fewer lines are told, 0 is expected, and the size of their residuals is the scale.
-        expected = np.where(told, _median(np.where(told[:, None], beside[:, :4], 0.0)), 0.0)
-        some = there.any(axis=1)
-        deviation = np.abs(beside - expected[:, None])
-        spread = _SPREAD * _median(np.where(some[:, None], deviation, 0.0))
-        spread = np.where(some, spread, spread.max(initial=0.0))
-        return residual - expected, np.hypot(spread, _ROUNDED * self.unit)
+        expected, scale = robust_scale(residual, self.beside, self.unit)
+        return residual - expected, scale
 
     def misfits(self, y: FloatArray, held: CellWindows) -> TableMisfits:
         """Give what every cell of a flattened table (cells,) is off, and the change it wants."""
@@ -176,24 +168,63 @@ class TableWindows:
         there = held.window >= 0
         off = np.where(there, r[held.window], 0.0)
         scale = np.where(there, s[held.window], 1.0)
-        parts = [
-            _best_change(off[part], scale[part], held.coefficient[part])
-            for part in (slice(k, k + _AT_ONCE) for k in range(0, size, _AT_ONCE))
-        ]
-        score, change = (np.concatenate(each) for each in zip(*parts, strict=True))
+        score, change = best_change(off, scale, held.coefficient)
         return TableMisfits(score, change, off, scale, held.coefficient)
 
 
-_AT_ONCE = 10_000
-"""Cells of which all windows are tried with all changes at once: 8 MB of numbers."""
+def robust_scale(
+    residual: FloatArray, beside: IntArray, unit: FloatArray | float
+) -> tuple[FloatArray, FloatArray]:
+    """Give what is expected of residuals (r,) and their scales, by those beside each, (r, 6).
+
+    `beside` holds them nearest first, -1 for none; `unit` is the rounding of each.
+    """
+    there = beside >= 0
+    near = np.where(there, residual[beside], np.nan)
+    told = (there.sum(axis=1) >= _ENOUGH) & there[:, :_FOUR].any(axis=1)
+    # Where fewer lines are told, 0 is expected, and the size of their residuals is the scale.
+    expected = np.where(told, _median(np.where(told[:, None], near[:, :_FOUR], 0.0)), 0.0)
+    some = there.any(axis=1)
+    deviation = np.abs(near - expected[:, None])
+    spread = _SPREAD * _median(np.where(some[:, None], deviation, 0.0))
+    spread = np.where(some, spread, spread.max(initial=0.0))
+    return expected, np.hypot(spread, _ROUNDED * unit)
 
 
-def _best_change(
+_AT_ONCE = 1_000_000
+"""So many residuals are tried with all changes at once: 8 MB of numbers."""
+
+
+_TRIED = 12
+"""Changes that are tried: those that put the residuals with the largest coefficients right."""
+
+
+def best_change(
     off: FloatArray, scale: FloatArray, coefficient: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Give score and change of cells, (n,) each: the best of those that put one window right."""
-    telling = np.abs(coefficient) > _WEIGHTY
-    wanted = np.where(telling, -off / np.where(telling, coefficient, 1.0), 0.0)
+    """Give score and change of points, (n,) each: the best of those that put one residual right.
+
+    Of (n, k) residuals of each point: what they are off, their scales, and their coefficients of
+    the point's change, 0 for none.
+    """
+    step = max(_AT_ONCE // (_TRIED * coefficient.shape[1]), 1)
+    parts = [
+        _best_of(off[part], scale[part], coefficient[part])
+        for part in (slice(k, k + step) for k in range(0, len(off), step))
+    ]
+    score, change = (np.concatenate(each) for each in zip(*parts, strict=True))
+    return score, change
+
+
+def _best_of(
+    off: FloatArray, scale: FloatArray, coefficient: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Give score and change of some points, all their residuals with all changes at once."""
+    count = min(_TRIED, coefficient.shape[1])
+    weightiest = np.argsort(-np.abs(coefficient), axis=1, kind="stable")[:, :count]
+    weight = np.take_along_axis(coefficient, weightiest, axis=1)
+    telling = np.abs(weight) > _WEIGHTY
+    wanted = -np.take_along_axis(off, weightiest, axis=1) / np.where(telling, weight, np.inf)
     moved = off[:, None, :] + wanted[:, :, None] * coefficient[:, None, :]
     left = np.log1p((moved / scale[:, None, :]) ** 2).sum(axis=2)
     left = np.where(telling, left, np.inf)

@@ -102,6 +102,6 @@ def _file(path: str | os.PathLike[str]) -> Path:
     if is_hull_file(file):
         raise BadInputError(
             "this is a hull and no table of offsets", f"at {file}",
-            "export its table, as by hull.export('offsets.csv')",
+            "ask the hull itself: assoc_hull.open(...).doctor()",
         )  # fmt: skip
     return file

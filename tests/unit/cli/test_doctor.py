@@ -9,6 +9,7 @@ import pytest
 
 from assoc_hull.cli import main
 from tests.damaged_tables import series60_table
+from tests.unit.cli.conftest import Json
 
 
 @pytest.fixture
@@ -42,7 +43,7 @@ def test_findings_are_one_document(spoilt: Path, capsys: pytest.CaptureFixture[s
     assert main(["doctor", str(spoilt), "--json", "--top", "3"]) == 1
     found = json.loads(capsys.readouterr().out)
     assert (found["format"], found["schema"]) == ("assoc-hull report", 1)
-    assert (found["slips"], found["alarm"], len(found["findings"])) == (1, 15.0, 3)
+    assert (found["called"], found["alarm"], len(found["findings"])) == (1, 15.0, 3)
     first = found["findings"][0]
     assert (first["station"], first["printed"]) == ("18", "0.245")
     assert first["numbers"][0] == {"text": "0.425", "slip": "two digits exchanged"}
@@ -55,6 +56,7 @@ def test_findings_are_one_document(spoilt: Path, capsys: pytest.CaptureFixture[s
         (["--mend", "mended.xlsx"], "end the name in .csv"),
         (["--mend", "no folder/mended.csv"], "make the folder first"),
         (["--centre", "one"], "centre is 'one'"),
+        (["--noise", "1mm"], "--noise cannot be given"),
     ],
 )
 def test_what_cannot_be_done_is_one_line(
@@ -65,3 +67,15 @@ def test_what_cannot_be_done_is_one_line(
     told = capsys.readouterr()
     assert wanted in told.err
     assert told.out == ""
+
+
+def test_a_hull_is_asked_itself(
+    hull: Path, facts: Json, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Points in place of cells; nothing can be mended there."""
+    found = facts("doctor", hull, "--noise", "2mm")
+    assert (found["called"], found["findings"], found["points"] > 100) == (0, [], True)
+    assert main(["doctor", str(hull)]) == 0
+    assert "0 points called" in capsys.readouterr().out
+    assert main(["doctor", str(hull), "--mend", str(hull.with_name("m.csv"))]) == 2
+    assert "--mend cannot be given" in capsys.readouterr().err

@@ -218,7 +218,7 @@ def test_a_hull_file_is_refused_with_the_way_to_its_table(tmp_path: Path) -> Non
     """A hull is no table; and a missing file is told by name."""
     hull = ah.examples.wigley()
     hull.save(tmp_path / "ship.hull")
-    with pytest.raises(BadInputError, match="export its table"):
+    with pytest.raises(BadInputError, match="ask the hull itself"):
         ah.doctor(tmp_path / "ship.hull")
     with pytest.raises(BadInputError, match=r"none\.csv"):
         ah.doctor(tmp_path / "none.csv")
