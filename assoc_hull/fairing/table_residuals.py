@@ -184,7 +184,7 @@ def robust_scale(
     told = (there.sum(axis=1) >= _ENOUGH) & there[:, :_FOUR].any(axis=1)
     # Where fewer lines are told, 0 is expected, and the size of their residuals is the scale.
     expected = np.where(told, _median(np.where(told[:, None], near[:, :_FOUR], 0.0)), 0.0)
-    some = there.any(axis=1)
+    some = np.asarray(there.any(axis=1))
     deviation = np.abs(near - expected[:, None])
     spread = _SPREAD * _median(np.where(some[:, None], deviation, 0.0))
     spread = np.where(some, spread, spread.max(initial=0.0))
