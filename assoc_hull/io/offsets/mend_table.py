@@ -90,6 +90,8 @@ def mended_text(
 def _with_cell(line: str, cells: tuple[str, ...], at: int, number: str) -> str | None:
     """Give a line with another number in one of its cells; None where that is not found."""
     place = 0
+    pointed = [each for each in cells if "." in each]
+    commas = bool(pointed) and not any(each in line for each in pointed)
     for k, cell in enumerate(cells):
         there = [(line.find(form, place), form) for form in (cell, cell.replace(".", ","))]
         place, shown = min((each for each in there if each[0] >= 0), default=(-1, ""))
@@ -97,8 +99,7 @@ def _with_cell(line: str, cells: tuple[str, ...], at: int, number: str) -> str |
             return None
         if k == at:
             sign = "-" if cell.startswith("-") else ""
-            comma = "," in shown
-            written = f"{sign}{number.replace('.', ',') if comma else number}"
+            written = f"{sign}{number.replace('.', ',') if commas else number}"
             return f"{line[:place]}{written}{line[place + len(shown) :]}"
         place += len(shown)
     return None
