@@ -42,16 +42,6 @@ class TrialTable:
     printed: PrintedOffsets
     metres: float
 
-    @property
-    def text(self) -> str:
-        """Its text, as commas part it."""
-        table = self.printed
-        lines = ["station," + ",".join(f"wl_{name}" for name in table.waterlines)]
-        lines += [
-            f"{name},{','.join(row)}" for name, row in zip(table.stations, table.text, strict=True)
-        ]
-        return "\n".join(lines) + "\n"
-
 
 def table_text(x: FloatArray, z: FloatArray, y: FloatArray, write: Callable[[float], str]) -> str:
     """A table with stations by x."""
