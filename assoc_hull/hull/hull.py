@@ -1664,7 +1664,7 @@ features
         where = "in doctor"
         most = integer(top, "top", where, least=0, most=1000)
         known = None if noise is None else positive(noise, "noise", where)
-        return examine_net(self.state, most, known)
+        return examine_net(state_of(self, where), most, known)
 
     def curve_transform(
         self,
