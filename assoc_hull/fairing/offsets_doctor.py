@@ -23,6 +23,7 @@ from assoc_hull.fairing.table_rules import (
     TableRemark,
     equal_neighbours,
     lone_values,
+    multiplied_lines,
     shared_factors,
 )
 from assoc_hull.geometry.curves import FloatArray
@@ -257,7 +258,7 @@ def examine(table: PrintedOffsets, top: int = 10) -> DoctorReport:
         table.name,
         table.unit,
         findings,
-        _remarks(table, checked),
+        _remarks(table, checked, windows),
         int(told.all(axis=1).sum()),
         int(single.sum()),
         _unchecked(table, checked, np.asarray(told.any(axis=1)).reshape(checked.shape)),
@@ -363,8 +364,14 @@ def _beside(table: PrintedOffsets, i: int, j: int) -> tuple[str, ...]:
     return tuple(table.text[a][b] for a, b in cells if 0 <= a < s and 0 <= b < w)
 
 
-def _remarks(table: PrintedOffsets, checked: NDArray[np.bool_]) -> tuple[TableRemark, ...]:
+def _remarks(
+    table: PrintedOffsets, checked: NDArray[np.bool_], windows: TableWindows
+) -> tuple[TableRemark, ...]:
     found = []
+    for axis, k, times in multiplied_lines(windows, np.nan_to_num(table.y).ravel()):
+        line = f"waterline {table.waterlines[k]}" if axis else f"station {table.stations[k]}"
+        what = f"its numbers are {times:.3g} times what the lines beside ask for: another unit?"
+        found.append(TableRemark(SHARED, line, what, times))
     for i, j in lone_values(table.y):
         what = f"{table.text[i][j]} stands between zeros; a 10 typed for 0?"
         found.append(TableRemark(LONE, table.where(i, j), what, float(table.y[i, j])))

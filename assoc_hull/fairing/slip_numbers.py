@@ -6,8 +6,8 @@ gives the number that was meant.
 Examples
 --------
 >>> from assoc_hull.fairing.slip_numbers import exchanged_digits, moved_points
->>> exchanged_digits("3258"), moved_points("15.2")
-(('2358', '3528', '3285'), ('1.52', '152'))
+>>> exchanged_digits("3258"), moved_points("15.2")[:4]
+(('2358', '3528', '3285'), ('1.52', '152', '0.152', '1520'))
 """
 
 from __future__ import annotations
@@ -40,19 +40,28 @@ def other_digits(text: str) -> tuple[str, ...]:
     return tuple(each for each in found if _natural(each, text))
 
 
+_PLACES = 3
+
 _DECIMAL = re.compile(r"(-?)([0-9]*)(?:\.([0-9]*))?")
 
 
 def moved_points(text: str) -> tuple[str, ...]:
-    """Give the numbers with the decimal point a place farther left and right."""
+    """Give the numbers with the decimal point up to three places farther left and right.
+
+    A point that was forgotten has moved by as many places as there are decimals.
+    """
     found = _DECIMAL.fullmatch(text)
     if found is None or not _digits(text):
         return ()
     sign, whole, part = found[1], found[2], found[3] or ""
-    left = f"{whole[:-1] or '0'}.{whole[-1:] or '0'}{part}"
-    right = f"{(whole + (part[:1] or '0')).lstrip('0') or '0'}"
-    right += f".{part[1:]}" if part[1:] else ""
-    return f"{sign}{left}", f"{sign}{right}"
+    moved = []
+    for by in range(1, _PLACES + 1):
+        before = whole.rjust(by + 1, "0")
+        moved.append(f"{sign}{before[:-by]}.{before[-by:]}{part}")
+        after = part.ljust(by, "0")
+        right = f"{whole}{after[:by]}".lstrip("0") or "0"
+        moved.append(f"{sign}{right}.{after[by:]}" if after[by:] else f"{sign}{right}")
+    return tuple(moved)
 
 
 def single_slips(text: str, beside: tuple[str, ...]) -> tuple[tuple[str, str], ...]:

@@ -9,7 +9,9 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.fairing.table_residuals import TableWindows
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.fairness.batten import WINDOW
 
 __all__ = [
     "EQUAL",
@@ -18,6 +20,7 @@ __all__ = [
     "TableRemark",
     "equal_neighbours",
     "lone_values",
+    "multiplied_lines",
     "shared_factors",
 ]
 
@@ -112,6 +115,38 @@ def shared_factors(whole: FloatArray) -> tuple[tuple[int, int, int], ...]:
 def _factor(numbers: FloatArray) -> int:
     """Give the greatest common divisor of whole numbers, 1 of none."""
     return int(np.gcd.reduce(np.round(numbers).astype(np.int64))) if len(numbers) else 1
+
+
+_TIMES, _EVEN, _NUMBERS = np.log(1.3), 0.1, 4
+"""A line is told if at least so many numbers of it are larger or smaller than the lines beside ask
+for by more than this, and by the same within a tenth in the median: logarithms of ratios."""
+
+
+def multiplied_lines(windows: TableWindows, y: FloatArray) -> tuple[tuple[int, int, float], ...]:
+    """Find rows and columns all of whose numbers are some times what the lines beside ask for.
+
+    `y` is the flattened table. Gives axis (0 a row), number of the line, and how many times; of
+    lines near one another that which is farthest off, as it makes the others seem so.
+    """
+    residual = (y[windows.cells] * windows.coefficients).sum(axis=1)
+    centre = windows.cells[:, WINDOW // 2]
+    wanted = y[centre] - residual / windows.coefficients[:, WINDOW // 2]
+    good = (wanted > 0.0) & (y[centre] > 0.0)
+    ratio = np.log(np.where(good, y[centre], 1.0) / np.where(good, wanted, 1.0))
+    lines = np.array(np.divmod(centre, windows.shape[1]))
+    found = []
+    for axis in (0, 1):
+        off = np.zeros(windows.shape[axis])
+        for k in range(len(off)):
+            own = ratio[good & (windows.along == axis) & (lines[axis] == k)]
+            middle = float(np.median(own)) if len(own) >= _NUMBERS else 0.0
+            even = float(np.median(np.abs(own - middle))) < _EVEN if len(own) else False
+            off[k] = middle if even and abs(middle) > _TIMES else 0.0
+        for k in np.argsort(-np.abs(off), kind="stable").tolist():
+            if off[k] != 0.0:
+                found.append((axis, k, float(np.exp(off[k]))))
+                off[max(k - 2, 0) : k + 3] = 0.0
+    return tuple(found)
 
 
 _DIFFERENT = 0.01

@@ -177,10 +177,12 @@ def test_slips_go_both_ways(text: str) -> None:
 
 @given(st.integers(1, 99999))
 def test_a_moved_point_is_a_factor_of_ten(number: int) -> None:
-    """One place left and one place right."""
-    left, right = moved_points(str(number))
-    assert float(left) == pytest.approx(number / 10.0)
-    assert float(right) == 10.0 * number
+    """One to three places left and right, the nearest first; a forgotten point is found so."""
+    found = [float(each) for each in moved_points(str(number))]
+    wanted = [number * 10.0**by for by in (-1, 1, -2, 2, -3, 3)]
+    assert found == pytest.approx(wanted)
+    assert "0.935" in moved_points("935")
+    assert moved_points("1e3") == ()
 
 
 def test_a_number_that_two_slips_make_is_the_commoner_one() -> None:

@@ -275,6 +275,13 @@ def test_rules_tell_what_no_batten_does() -> None:
     assert {"shared factor: station 8: all its numbers"} <= {
         str(each).partition(" are")[0] for each in told
     }
+    for row, times in ((6, 2.0), (9, 0.5)):
+        cells = text.splitlines()[row].split(",")
+        other = [(row, k, f"{times * int(cell):.0f}") for k, cell in enumerate(cells) if k]
+        (first, *_) = ah.doctor(with_cells(text, *other)).remarks
+        assert (first.kind, first.where) == ("shared factor", f"station {row - 1}")
+        assert first.amount == pytest.approx(times, rel=0.02)
+        assert "times what the lines beside ask for" in str(first)
     twice = text.splitlines()[13].split(",")[5]
     (remark,) = ah.doctor(with_cells(text, (13, 4, twice))).remarks
     assert (remark.kind, remark.where) == ("equal neighbours", "station 12, waterline 2346.09")
