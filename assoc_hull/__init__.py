@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from assoc_hull.geometry.plane import Plane
     from assoc_hull.hull.hull import Hull
     from assoc_hull.hull.sources import create, examples, open, read
+    from assoc_hull.io.offsets.doctor import doctor
     from assoc_hull.model.kinds import BoundaryKind
     from assoc_hull.model.line_source import LineSource
     from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
@@ -48,6 +49,7 @@ __all__ = [
     "classical",
     "create",
     "creation",
+    "doctor",
     "errors",
     "examples",
     "form",
@@ -74,6 +76,7 @@ _PUBLIC: dict[str, dict[str, tuple[str, ...]]] = {
             "open",
             "read",
         ),
+        "io.offsets.doctor": ("doctor",),
         "model.kinds": ("BoundaryKind",),
         "model.line_source": ("LineSource",),
         "model.objects": (

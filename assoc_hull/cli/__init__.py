@@ -1,7 +1,7 @@
 """The command line: `main` finds the command, runs it, and turns every failure into one line.
 
-Exit codes: 0 done; 1 findings (check, verify, a refused edit); 2 bad input or usage, with one
-line ``error: what, where, how much, what to do`` on standard error; 3 an imported hull is not
+Exit codes: 0 done; 1 findings (check, doctor, verify, a refused edit); 2 bad input or usage, with
+one line ``error: what, where, how much, what to do`` on standard error; 3 an imported hull is not
 sound, with all findings on standard output and one line of error; 130 stopped by the keyboard; 141
 when the reader of the output has gone.
 """

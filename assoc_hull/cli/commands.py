@@ -15,6 +15,7 @@ from typing import Any, NoReturn
 
 from assoc_hull.cli.arguments import Commands, add_command
 from assoc_hull.cli.demo import add_demo
+from assoc_hull.cli.doctor import add_doctor
 from assoc_hull.cli.edits import add_edit, add_history, add_replay
 from assoc_hull.cli.export import add_export
 from assoc_hull.cli.fairing import add_fair
@@ -160,13 +161,14 @@ examples:
   assoc-hull check ship.hull --json
   assoc-hull plot ship.hull -o lines.pdf
 
-exit codes: 0 done; 1 findings (check, verify, an edit refused or not made); 2 bad input or usage;
-3 an imported hull is not sound
+exit codes: 0 done; 1 findings (check, doctor, verify, an edit refused or not made); 2 bad input or
+usage; 3 an imported hull is not sound
 """
 
 _COMMANDS = (
     add_demo,
     add_example_and_import,
+    add_doctor,
     add_create,
     add_classical,
     add_curve,

@@ -1,1 +1,1 @@
-"""Fairing of whole hulls: what is done, what came of it, and windows for the hand."""
+"""Fairing: what looks at a hull or a table of offsets before, while and after it is faired."""

@@ -22,7 +22,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from assoc_hull.arguments import flag, instance, integer, not_negative, number, text
+from assoc_hull.arguments import flag, instance, integer, not_negative, number, positive, text
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out, settings_of
@@ -81,6 +81,7 @@ if TYPE_CHECKING:
     from assoc_hull.fairing.fair_report import FairReport
     from assoc_hull.fairing.fair_window import FairWindow
     from assoc_hull.fairing.line_fairness import FairnessTable
+    from assoc_hull.fairing.net_doctor import NetDoctorReport
     from assoc_hull.geometry.curves import FloatArray
     from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
     from assoc_hull.hull.pictures import HullPictures
@@ -1732,6 +1733,46 @@ class Hull:
         from assoc_hull.fairing.fair_window import FairWindow
 
         return FairWindow(self.document, *window_of(self.document.state, at, radius))
+
+    def doctor(self, *, top: int = 10, noise: float | None = None) -> NetDoctorReport:
+        """Look for points that the lines of the hull do not bear out; nothing is changed.
+
+        Each point is judged by how far battens spring off the points of all lines that move with
+        it, beside what they do on the lines of the family beside. Points that were placed, profile,
+        flats and features are not judged. Of a table of offsets `assoc_hull.doctor` tells slips of
+        the hand, before a hull is made of it.
+
+        Parameters
+        ----------
+        top : int
+            So many findings are listed at least, those that are called first.
+        noise : float or None, m
+            To what points are known: 1 mm of a hull of 100 m and more if None.
+
+        Returns
+        -------
+        NetDoctorReport
+            With ``findings`` and ``alarms``, those with a score above 15; as text, all of them.
+
+        Raises
+        ------
+        BadInputError
+            A number that cannot be used.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> print(ah.examples.wigley().doctor())
+        Wigley: 0 points called (score above 15)
+        judged: 171 points by 286 residuals, known to 1 mm; not placed points, profile, flats, \
+features
+        """
+        from assoc_hull.fairing.net_doctor import examine_net
+
+        where = "in doctor"
+        most = integer(top, "top", where, least=0, most=1000)
+        known = None if noise is None else positive(noise, "noise", where)
+        return examine_net(state_of(self, where), most, known)
 
     def curve_transform(
         self,

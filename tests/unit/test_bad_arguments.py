@@ -178,6 +178,10 @@ SADDLE = np.array([[[0.0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]])
 PLATE = ah.surface.SplineSurface.bezier(SADDLE)
 MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     "open": (ah.open, {"path": "a"}),
+    "doctor": (
+        ah.doctor,
+        {"path": "a", "top": 3, "centre": None, "mend": None, "replace": False},
+    ),
     "sample": (
         ah.study.sample,
         {"ranges": {"breadth": (9.0, 11.0)}, "count": 2, "seed": 0, "method": "latin"},
@@ -481,6 +485,7 @@ FLOATING: dict[str, Given] = {
     "bonjean": {"levels": 5},
     "section_points": {"x": 40.0, "points": 5, **ONE},
     "fairness": {"lines": ["WL 2.5"], "allowed": 0},
+    "doctor": {"top": 3, "noise": 1e-3},
     "compare": {"variant": SMALL, "draught": None, "screw": None},
     "mesh": {"half": False, "points": 2, "leave_out": ()},
     "panels": {

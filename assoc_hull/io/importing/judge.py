@@ -13,7 +13,7 @@ from assoc_hull.io.importing.stated import stated_in
 from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict, told_verdict
 from assoc_hull.io.lines.boundary_holes import HOLE
 from assoc_hull.io.lines.ship_frame import ShipFrame
-from assoc_hull.io.offsets.doctor import BLANK_INSIDE
+from assoc_hull.io.offsets.suspicions import BLANK_INSIDE
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.reports import Note, OffsetReport
 from assoc_hull.io.slicing.net import LOFTED, SliceReport

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polylines.operations import runs_where
-from assoc_hull.io.offsets.doctor import ExaminedTable, predicted_values
+from assoc_hull.io.offsets.suspicions import ExaminedTable, predicted_values
 from assoc_hull.io.reports import Notebook
 
 __all__ = ["compare_areas", "compare_beams", "examine_lines", "section_areas"]

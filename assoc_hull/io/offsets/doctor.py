@@ -1,369 +1,107 @@
-"""Suspicions on a table of offsets: wild values, lone values, blanks, sizes that no ship has.
+"""The doctor of offsets for a file: reads a table as printed, tells its slips, writes a mended one.
 
-Nothing is changed; every suspicion is noted with its place. A wild value is found by releasing it:
-the value that makes the third divided differences of its waterline least is compared with the
-printed one, likewise along its station. A turn of the hull, such as the bilge, sticks out along one
-of the two; a wrong number along both and to the same side.
+Neither unit nor length of the ship need be known: half-breadths are judged in their own unit.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
+from pathlib import Path
 
 import attrs
-import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.reports import Notebook
-from assoc_hull.tolerance import length_factor
+from assoc_hull.arguments import file_path, flag, integer, regular_file
+from assoc_hull.errors import BadInputError
+from assoc_hull.fairing.offsets_doctor import DoctorReport, examine
+from assoc_hull.io.offsets.mend_table import write_mended
+from assoc_hull.io.offsets.read import read_printed
+from assoc_hull.io.open_databases import is_hull_file
 
-__all__ = [
-    "BLANK_INSIDE",
-    "ExaminedTable",
-    "examine_offsets",
-    "lone_values",
-    "most_half_breadth",
-    "predicted_values",
-    "wild_values",
-]
+__all__ = ["doctor"]
 
-BLANK_INSIDE = "blank between numbers"
-"""How a cell without a number is told that parts a section in two."""
-
-# --------------------------------------------------------------------------------------
-# Wild and lone values. The worst wild value is set to its released value and the search repeated,
-# so that one wrong number is reported once.
-
-_SCORE = 5.5
-"""A value is wild from this score: off its neighbours, over what is usual there."""
-
-_AT_ENDS = 7.0
-"""So many times the score is asked for where blanks or zeros are near."""
-
-_MOST = 12
-_NOISE = 3e-4
-"""Offsets count as rounded to no less than this part of the largest."""
+_MOST_LISTED = 1000
 
 
-_DIGITS = 5e-4
-"""A breadth of four digits is told to this part of itself."""
+def doctor(
+    path: str | os.PathLike[str],
+    *,
+    top: int = 10,
+    centre: float | str | None = None,
+    mend: str | os.PathLike[str] | None = None,
+    replace: bool = False,
+) -> DoctorReport:
+    r"""Look for slips of the hand in a table of offsets, before a hull is made of it.
 
+    Each half-breadth is judged by the battens through five neighbouring cells along its station
+    and its waterline, and by what these do on the lines beside. A number with a score above 15 is
+    called a slip; beside the number that its neighbours ask for stand up to three that one slip
+    makes of the printed one: two digits exchanged, one digit other, decimal point, the cell beside.
+    Nothing is changed. A run of cells shorter than five, heights of buttocks, keel and deck are not
+    looked at.
 
-def most_half_breadth(half: float, rounding: FloatArray) -> FloatArray:
-    """Give what a half-breadth may be beside B/2, (w,), m, by what both are rounded to."""
-    return np.asarray(half + np.maximum(rounding * (1.0 + 1e-6), _DIGITS * half))
+    The batten is lifted off a point as in the loft; the likelihood is that of Cauchy's
+    distribution: P.J. Huber, "Robust Statistics", Wiley, 1981.
 
-
-def predicted_values(place: FloatArray, value: FloatArray) -> FloatArray:
-    """Give each value as its neighbours would have it: at ascending places (n,), all finite.
-
-    It makes the sum of squared third divided differences least, all others held; nan for the first
-    and the last, and where n < 5.
-    """
-    count = len(place)
-    out = np.full(count, np.nan)
-    if count < 5:
-        return out
-    window = np.arange(count - 3)[:, None] + np.arange(4)
-    u = place[window]
-    gap = u[:, :, None] - u[:, None, :] + np.eye(4)
-    weight = 6.0 * ((u[:, -1] - u[:, 0]) / 3.0)[:, None] ** 3 / np.prod(gap, axis=2)
-    rows = np.zeros((count - 3, count))
-    np.put_along_axis(rows, window, weight, axis=1)
-    out[:] = value - (rows.T @ (rows @ value)) / np.sum(rows**2, axis=0)
-    out[[0, -1]] = np.nan
-    return out
-
-
-def _both(x: FloatArray, z: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give how far values are off their neighbours along waterlines and stations, (s, w), m."""
-    along_x, along_z = np.full(y.shape, np.nan), np.full(y.shape, np.nan)
-    for j in range(len(z)):
-        known = np.isfinite(y[:, j])
-        along_x[known, j] = y[known, j] - predicted_values(x[known], y[known, j])
-    for i in range(len(x)):
-        known = np.isfinite(y[i])
-        along_z[i, known] = y[i, known] - predicted_values(z[known], y[i, known])
-    return along_x, along_z
-
-
-def wild_values(
-    x: FloatArray, z: FloatArray, y: FloatArray, rounding: FloatArray
-) -> tuple[tuple[int, int, float], ...]:
-    """Find values far off what their neighbours along station and waterline say.
-
-    Stations x (s,) and waterlines z (w,), m, ascend; y (s, w), m, is nan for blanks, and the first
-    and the last of a line are not judged; `rounding` (w,), m, is half a unit of the last printed
-    digit. Gives station, waterline and released value (m), the worst first, 12 at most.
-    """
-    y = y.copy()
-    noise = np.maximum(rounding, _NOISE * np.nanmax(y, initial=0.0))
-    found: list[tuple[int, int, float]] = []
-    while len(found) < _MOST:
-        along_x, along_z = _both(x, z, y)
-        agree = along_x * along_z > 0
-        off = np.where(agree, np.minimum(np.abs(along_x), np.abs(along_z)), 0.0)
-        off[~np.isfinite(along_x * along_z)] = np.nan
-        off[tuple(np.array([each[:2] for each in found], int).reshape(-1, 2).T)] = 0.0
-        i, j, score = _worst(off, noise, y)
-        if score < _SCORE:
-            break
-        better = float(y[i, j] - min(along_x[i, j], along_z[i, j], key=abs))
-        found.append((i, j, better))
-        y[i, j] = better
-    return tuple(found)
-
-
-def _worst(off: FloatArray, noise: FloatArray, y: FloatArray) -> tuple[int, int, float]:
-    best = (0, 0, 0.0)
-    for i, j in zip(*np.nonzero(np.nan_to_num(off) > 3.0 * noise), strict=True):
-        window = (slice(max(i - 2, 0), i + 3), slice(max(j - 2, 0), j + 3))
-        near, beside = off[window].copy(), y[window].copy()
-        near[min(i, 2), min(j, 2)] = beside[min(i, 2), min(j, 2)] = np.nan
-        known = near[np.isfinite(near)]
-        usual = float(np.percentile(known, 80)) if len(known) else 0.0
-        score = float(off[i, j] / (3.0 * noise[j] + usual))
-        # Where a hull begins or ends lines turn as they do nowhere else.
-        score /= _AT_ENDS if np.count_nonzero(np.nan_to_num(beside)) < beside.size - 1 else 1.0
-        best = max(best, (int(i), int(j), score), key=lambda item: item[2])
-    return best
-
-
-def lone_values(y: FloatArray) -> tuple[tuple[int, int], ...]:
-    """Find values above 0 of y (s, w) between zeros above and below in the same station."""
-    middle = (y[:, 1:-1] > 0) & (y[:, :-2] == 0) & (y[:, 2:] == 0)
-    return tuple((int(i), int(j) + 1) for i, j in zip(*np.nonzero(middle), strict=True))
-
-
-# --------------------------------------------------------------------------------------
-# All suspicions on a table in ship axes.
-
-
-@attrs.frozen(eq=False)
-class ExaminedTable:
-    """A table in ship axes with the names of its rows and columns.
-
-    Attributes
+    Parameters
     ----------
-    stations, waterlines : tuple of str
-        Names as printed.
-    x : (s,), m
-    z : (w,), m
-    y : (s, w), m
-        Half-breadths, nan for blanks.
-    keel, deck : (s,) or None, m
-        Local heights.
-    rounding : (w,), m
-    length, breadth : float, m
-    draught : float or None, m
-    printed : float
-        Metres to one unit of the printed half-breadths.
-    eighths : bool
-        Half-breadths are printed in feet-inches-eighths.
+    path : path or str
+        A table of offsets (CSV, TSV, XLSX), or its text, with line breaks. Units, length and
+        draught need not be known.
+    top : int
+        So many findings are listed at least, those that are no slips after those that are.
+    centre : float, str or None
+        From where half-breadths of one of two hulls are counted, as for `assoc_hull.read`.
+    mend : path or None
+        Where to write the table with all slips put right, each to the first number of one slip, or
+        to the one that its neighbours ask for; comments above it list every change. Nothing is
+        written if there is no slip.
+    replace : bool
+        Write over a file at `mend`; the table itself is never written over.
+
+    Returns
+    -------
+    DoctorReport
+        With ``findings``, ``alarms``, ``remarks``, ``unchecked``; as text, all of them.
+
+    Raises
+    ------
+    BadInputError
+        The file cannot be read or is no table of offsets; `mend` is the table itself, or there is
+        a file and `replace` is not given; so many slips that whole lines must be wrong.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> rows = [[i, *(round(50 * i * (10 - i) * (1 - (6 - j) ** 2 / 50)) for j in range(7))]
+    ...         for i in range(11)]
+    >>> rows[4][4] = 948  # for 984
+    >>> text = "station,wl_0,wl_1,wl_2,wl_3,wl_4,wl_5,wl_6"
+    >>> [slip] = ah.doctor("\n".join([text, *(",".join(map(str, row)) for row in rows)])).alarms
+    >>> slip.station, slip.waterline, slip.printed, slip.proposed, slip.numbers[0].slip
+    ('4', '3', '948', '984', 'two digits exchanged')
     """
-
-    stations: tuple[str, ...]
-    waterlines: tuple[str, ...]
-    x: FloatArray
-    z: FloatArray
-    y: FloatArray
-    keel: FloatArray | None
-    deck: FloatArray | None
-    rounding: FloatArray
-    length: float
-    breadth: float
-    draught: float | None
-    printed: float
-    eighths: bool = False
-
-    def where(self, i: int, j: int) -> str:
-        """Name a cell."""
-        return f"station {self.stations[i]}, waterline {self.waterlines[j]}"
-
-    def says(self, value: float) -> str:
-        """Write a half-breadth in m, and as printed where that differs."""
-        if self.printed == 1.0:
-            return f"{value:.6g} m"
-        number = value / self.printed
-        return f"{value:.6g} m (printed {_eighths(number) if self.eighths else f'{number:.6g}'})"
-
-    def amidships(self) -> Iterator[int]:
-        """Give the stations within a tenth of the length from amidships."""
-        yield from map(int, np.flatnonzero(np.abs(self.x / self.length - 0.5) <= 0.1))
+    count = integer(top, "top", "in doctor", least=0, most=_MOST_LISTED)
+    over = flag(replace, "replace", "in doctor")
+    given = path if isinstance(path, str) and "\n" in path else _file(path)
+    sheet, printed = read_printed(given, centre)
+    found = examine(printed, count)
+    if mend is None or not found.alarms:
+        return found
+    target = file_path(mend, "in doctor, mend")
+    if found.overrun:
+        raise BadInputError(
+            f"{len(found.alarms)} slips are called and more are there: whole rows or columns are "
+            "wrong", f"in {found.name}", "put these right by hand; nothing was written",
+        )  # fmt: skip
+    write_mended(given, target, sheet, found.alarms, centre, replace=over)
+    return attrs.evolve(found, written=target)
 
 
-def _eighths(feet: float) -> str:
-    """Write feet as feet-inches-eighths."""
-    inches, eighths = divmod(round(96.0 * abs(feet)), 8)
-    return f"{'-' if feet < 0.0 else ''}{inches // 12}-{inches % 12}-{eighths}"
-
-
-def examine_offsets(patient: ExaminedTable, book: Notebook) -> None:
-    """Note every suspicion on a table; nothing is changed."""
-    _values(patient, book)
-    _blanks(patient, book)
-    _beyond(patient, book)
-    _per_waterline(patient, book)
-    _sizes(patient, book)
-    _narrowing(patient, book)
-    _bottom(patient, book)
-    _ends(patient, book)
-
-
-def _values(patient: ExaminedTable, book: Notebook) -> None:
-    alone = lone_values(patient.y)
-    for i, j in alone:
-        value = float(patient.y[i, j])
-        what = f"{patient.says(value)} stands between zeros; a 10 typed for 0?"
-        book.suspect("lone value", patient.where(i, j), what, value)
-    y = patient.y.copy()
-    for i, j in alone:
-        y[i, j] = 0.0
-    for i, j, better in wild_values(patient.x, patient.z, y, patient.rounding):
-        value = float(patient.y[i, j])
-        what = (
-            f"{patient.says(value)} is {value - better:+.3g} m off its neighbours, which say "
-            f"{patient.says(better)}"
-        )
-        book.suspect("outlier", patient.where(i, j), what, value - better)
-
-
-def _blanks(patient: ExaminedTable, book: Notebook) -> None:
-    for i, row in enumerate(patient.y):
-        known = np.flatnonzero(np.isfinite(row))
-        if not len(known):
-            book.suspect("blank", f"station {patient.stations[i]}", "the station has no offset")
-            continue
-        _outer_blanks(patient, i, int(known[0]), int(known[-1]), book)
-        inner = np.arange(int(known[0]), int(known[-1]))
-        blank = inner[np.isnan(row[inner])]
-        ended = [j for j in blank if _ended(patient.y[:, j], i) and not _among_zeros(row, int(j))]
-        if ended:
-            what = f"{len(ended)} blanks between numbers, and none farther out: the hull ended"
-            book.assume("blank", f"station {patient.stations[i]}", what, float(len(ended)))
-        for j in blank:
-            if j not in ended:
-                book.suspect("blank", patient.where(i, int(j)), f"{BLANK_INSIDE}: fill the cell")
-
-
-def _among_zeros(row: FloatArray, j: int) -> bool:
-    """Tell whether the numbers next to a blank, below and above, are zeros."""
-    known = np.flatnonzero(np.isfinite(row))
-    return bool(row[known[known < j][-1]] == 0.0 and row[known[known > j][0]] == 0.0)
-
-
-def _ended(line: FloatArray, i: int) -> bool:
-    """Tell whether a waterline has no half-breadth from a station on to one of its ends."""
-    return not (np.nan_to_num(line[:i]).any() and np.nan_to_num(line[i:]).any())
-
-
-def _outer_blanks(patient: ExaminedTable, i: int, first: int, last: int, book: Notebook) -> None:
-    # Of a hull of 100 m and more.
-    slack = 1e-3 * length_factor(patient.length)
-    if first and patient.keel is None:
-        what = f"blanks below waterline {patient.waterlines[first]} read as below the local keel"
-        book.assume("blank", f"station {patient.stations[i]}", what, float(patient.z[first]))
-    if last + 1 < len(patient.z) and patient.deck is None:
-        what = f"blanks above waterline {patient.waterlines[last]} read as above the deck"
-        book.assume("blank", f"station {patient.stations[i]}", what, float(patient.z[last]))
-    keel = -np.inf if patient.keel is None else patient.keel[i]
-    deck = np.inf if patient.deck is None else patient.deck[i]
-    for j, z in enumerate(patient.z):
-        # Where keel or deck is not known, a blank has been read as beyond it.
-        if (j < first and z > keel + slack and np.isfinite(keel)) or (
-            j > last and z < deck - slack and np.isfinite(deck)
-        ):
-            what = f"blank, though {z:.6g} m is between keel {keel:.6g} m and deck {deck:.6g} m"
-            book.suspect("blank", patient.where(i, j), what, float(z))
-        # A zero says of a place outside what a blank says.
-        elif first <= j <= last and patient.y[i, j] > 0 and not keel - slack <= z <= deck + slack:
-            what = f"a number, though {z:.6g} m is outside keel {keel:.6g} m to deck {deck:.6g} m"
-            book.suspect("blank", patient.where(i, j), what, float(z))
-
-
-def _beyond(patient: ExaminedTable, book: Notebook) -> None:
-    half = patient.breadth / 2.0
-    # What is beyond B/2 by more than its rounding is a fault, and told with its cell.
-    within = most_half_breadth(half, patient.rounding)
-    above = (patient.y > half * (1.0 + 1e-12)) & (patient.y <= within)
-    if above.any():
-        most = float(patient.y[above].max()) - half
-        what = f"{int(above.sum())} are above B/2 = {half:.6g} m by up to {most:.3g} m, as rounded"
-        book.assume("above B/2", "half-breadths", what, most)
-    largest = float(np.nanmax(patient.y, initial=0.0))
-    if largest < 0.9 * half:
-        what = f"the largest half-breadth {largest:.6g} m is far below B/2 = {half:.6g} m"
-        book.suspect("unit", "the table", what, largest - half)
-
-
-def _per_waterline(patient: ExaminedTable, book: Notebook) -> None:
-    known = np.isfinite(patient.y).any(axis=0)
-    if known.sum() < 3 or patient.z[known][0] > 0.2 * patient.z[-1]:
-        return
-    largest = np.nanmax(patient.y[:, known], axis=0)
-    if np.all(np.abs(largest - largest[0]) <= patient.rounding[known]) and largest[0] > 0:
-        what = f"each waterline, the lowest too, has the same largest value {largest[0]:.6g} m"
-        book.suspect("normalised per waterline", "the table", what, float(largest[0]))
-
-
-_NO_SHIP = 4.0
-"""Beyond the bounds of ships by this factor a unit is wrong, not the ship unusual."""
-
-
-def _sizes(patient: ExaminedTable, book: Notebook) -> None:
-    spread = float(patient.x[-1] - patient.x[0]) / patient.length
-    ratios = [
-        ("length to breadth", patient.length / patient.breadth, 2.0, 20.0),
-        ("height of the table to breadth", float(patient.z[-1]) / patient.breadth, 0.03, 1.25),
-        ("span of the stations to length", spread, 0.3, 1.3),
-    ]
-    if patient.draught:
-        ratios.append(("breadth to draught", patient.breadth / patient.draught, 0.8, 20.0))
-        ratios.append(("height to draught", float(patient.z[-1]) / patient.draught, 0.98, 10.0))
-    for name, ratio, low, high in ratios:
-        if not low / _NO_SHIP <= ratio <= high * _NO_SHIP:
-            what = f"{name} is {ratio:.4g}, and no ship has it: give unit=, or correct the numbers"
-            book.fault("unit", "the table", what, ratio)
-        elif not low <= ratio <= high:
-            what = f"{name} is {ratio:.4g}, outside {low:g} to {high:g}: is it the right unit?"
-            book.suspect("unit", "the table", what, ratio)
-
-
-def _narrowing(patient: ExaminedTable, book: Notebook) -> None:
-    limit = patient.draught if patient.draught is not None else 0.5 * float(patient.z[-1])
-    for i in patient.amidships():
-        for j in range(1, len(patient.z)):
-            drop = float(patient.y[i, j - 1] - patient.y[i, j])
-            if patient.z[j] <= limit * (1 + 1e-9) and drop > 2.5 * patient.rounding[j]:
-                what = f"{drop:.4g} m narrower than the waterline below, amidships"
-                book.suspect("decreasing with height", patient.where(i, j), what, drop)
-
-
-def _bottom(patient: ExaminedTable, book: Notebook) -> None:
-    half = patient.breadth / 2.0
-    for i in patient.amidships():
-        row = patient.y[i]
-        known = np.flatnonzero(row > 0)
-        if not len(known) or (patient.keel is not None and known[0] > 0):
-            continue
-        j = int(known[0])
-        low = patient.z[j] <= 0.6 * patient.z[-1]
-        if patient.z[j] > 1e-9 and low and row[j] > 0.5 * half:
-            what = f"the lowest offset is {patient.says(float(row[j]))} at {patient.z[j]:.4g} m"
-            where = f"station {patient.stations[i]}"
-            book.suspect("flat bottom missing", where, what, float(row[j]))
-
-
-def _ends(patient: ExaminedTable, book: Notebook) -> None:
-    top = np.nan_to_num(patient.y[:, -1])
-    if not top.any():
-        return
-    third = patient.x <= patient.x[0] + (patient.x[-1] - patient.x[0]) / 4.0
-    other = patient.x >= patient.x[-1] - (patient.x[-1] - patient.x[0]) / 4.0
-    aft, forward = float(np.mean(top[third])), float(np.mean(top[other]))
-    if forward > 1.05 * aft:
-        what = (
-            f"the highest waterline is fuller forward ({forward:.4g} m on average over the last "
-            f"quarter) than aft ({aft:.4g} m): is station 0 at the other end?"
-        )
-        book.suspect("frame", "the table", what, forward - aft)
+def _file(path: str | os.PathLike[str]) -> Path:
+    file = regular_file(Path(file_path(path, "in doctor")))
+    if is_hull_file(file):
+        raise BadInputError(
+            "this is a hull and no table of offsets", f"at {file}",
+            "ask the hull itself: assoc_hull.open(...).doctor()",
+        )  # fmt: skip
+    return file

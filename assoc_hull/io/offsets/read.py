@@ -14,6 +14,7 @@ import numpy as np
 
 from assoc_hull.arguments import number
 from assoc_hull.errors import BadInputError
+from assoc_hull.fairing.offsets_doctor import PrintedOffsets, examine
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.offsets.damage import (
     compare_areas,
@@ -21,13 +22,8 @@ from assoc_hull.io.offsets.damage import (
     examine_bottom,
     examine_lines,
 )
-from assoc_hull.io.offsets.doctor import (
-    ExaminedTable,
-    examine_offsets,
-    most_half_breadth,
-    wild_values,
-)
 from assoc_hull.io.offsets.hints import OffsetHints, read_hints
+from assoc_hull.io.offsets.printed import printed_offsets, rows_in_order
 from assoc_hull.io.offsets.scale import (
     OffsetScale,
     PrintedSizes,
@@ -40,6 +36,11 @@ from assoc_hull.io.offsets.scale import (
     station_places,
 )
 from assoc_hull.io.offsets.sheet import OffsetColumn, OffsetSheet, read_sheet
+from assoc_hull.io.offsets.suspicions import (
+    ExaminedTable,
+    examine_offsets,
+    most_half_breadth,
+)
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.reports import Notebook, OffsetReport
 from assoc_hull.io.tables.column_names import column_name
@@ -51,6 +52,7 @@ from assoc_hull.tolerance import length_factor
 __all__ = [
     "build_table",
     "read_offsets",
+    "read_printed",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -114,7 +116,7 @@ def build_table(
     )
     table = _with_plumb_ends(table, _named(sheet)[order], book)
     _refuse_size(table, sheet.block.source)
-    _examine(table, sheet, scale, order, book)
+    _examine(table, sheet, hints, scale, order, book)
     return table
 
 
@@ -405,8 +407,9 @@ def _common(one: OffsetSheet, other: OffsetSheet) -> tuple[FloatArray, FloatArra
 
 
 def _examine(
-    table: OffsetTable, sheet: OffsetSheet, scale: OffsetScale, order: slice, book: Notebook
-) -> None:
+    table: OffsetTable, sheet: OffsetSheet, hints: OffsetHints, scale: OffsetScale, order: slice,
+    book: Notebook,
+) -> None:  # fmt: skip
     heights = (str(column.value) for column in sheet.columns.waterlines)
     patient = ExaminedTable(
         _named(sheet)[order],
@@ -423,7 +426,7 @@ def _examine(
         scale.y,
         sheet.printed_unit == "ft",
     )
-    examine_offsets(patient, book)
+    examine_offsets(patient, printed_offsets(sheet, hints, ""), book)
     examine_lines(patient, book)
     examine_bottom(patient, book)
     areas, beams = sheet.single("area"), sheet.single("beam")
@@ -594,22 +597,8 @@ def read_offsets(
     for key, value in (("length", length), ("breadth", breadth), ("draught", draught)):
         check_particular(key, value)
     book = Notebook()
-    text, source = read_text(path_or_text, book)
-    refuse_long(text, source)
-    comments, blocks = split_blocks(text, source, book)
-    hints = given_spacing(read_hints(comments), station_spacings, frame_spacing, book)
-    if buttocks is not None:
-        blocks += split_blocks(*read_text(buttocks, book), book)[1]
-    sheets = [read_sheet(block, book) for block in blocks]
-    if frame_spacing or station_spacings:
-        sheets = [_by_number(sheet, book) for sheet in sheets]
-    main, extra = _sort_out(sheets, source)
-    main = _to_port(main, book)
-    main = _by_beams(main, book)
-    if extra is not None and centre is not None:
-        what = "buttocks cannot be read with centre"
-        raise BadInputError(what, source, "leave out the block of buttocks")
-    main = _about_centre(main, centre, source, book)
+    sheets = _read_sheets(path_or_text, book, buttocks, station_spacings, frame_spacing, centre)
+    source, main, extra, hints = sheets.source, sheets.main, sheets.extra, sheets.hints
     hints = _with_header(main, hints)
     if hints.full:
         what = f"the comments say {hints.full!r}, and half-breadths are read: give half of each"
@@ -627,6 +616,58 @@ def read_offsets(
         table = _deck_about_centre(table, scale.y * float(centre))
     default = Path(source).stem if source != "text" else "offsets"
     return attrs.evolve(table, name=default if name is None else name), book.report()
+
+
+@attrs.frozen(eq=False)
+class _Sheets:
+    """A file as printed: half-breadths, buttocks of a block of their own, and its comments."""
+
+    source: str
+    main: OffsetSheet
+    extra: OffsetSheet | None
+    hints: OffsetHints
+
+
+def _read_sheets(
+    path_or_text: str | Path,
+    book: Notebook,
+    buttocks: str | Path | None = None,
+    station_spacings: int | None = None,
+    frame_spacing: float | None = None,
+    centre: float | str | None = None,
+) -> _Sheets:
+    """Read what is printed, before any unit or place is settled; as for `read_offsets`."""
+    text, source = read_text(path_or_text, book)
+    refuse_long(text, source)
+    comments, blocks = split_blocks(text, source, book)
+    hints = given_spacing(read_hints(comments), station_spacings, frame_spacing, book)
+    if buttocks is not None:
+        blocks += split_blocks(*read_text(buttocks, book), book)[1]
+    sheets = [read_sheet(block, book) for block in blocks]
+    if frame_spacing or station_spacings:
+        sheets = [_by_number(sheet, book) for sheet in sheets]
+    main, extra = _sort_out(sheets, source)
+    main = _to_port(main, book)
+    main = _by_beams(main, book)
+    if extra is not None and centre is not None:
+        what = "buttocks cannot be read with centre"
+        raise BadInputError(what, source, "leave out the block of buttocks")
+    return _Sheets(source, _about_centre(main, centre, source, book), extra, hints)
+
+
+def read_printed(
+    path_or_text: str | Path, centre: float | str | None = None
+) -> tuple[OffsetSheet, PrintedOffsets]:
+    """Read the half-breadths of a table as printed, of which neither unit nor length need be known.
+
+    Raises
+    ------
+    BadInputError
+        As for `read_offsets`, but for what it needs besides the numbers.
+    """
+    found = _read_sheets(path_or_text, Notebook(), centre=centre)
+    name = Path(found.source).name if found.source != "text" else "offsets"
+    return found.main, printed_offsets(found.main, found.hints, name)
 
 
 def _by_number(sheet: OffsetSheet, book: Notebook) -> OffsetSheet:
@@ -765,11 +806,11 @@ def _borne_out(sheet: OffsetSheet) -> float:
 
 def _without_wild(sheet: OffsetSheet, y: FloatArray) -> float:
     """Leave a wild value out where it is the largest of all."""
-    order = np.argsort(sheet.place)
-    heights = np.array([column.value for column in sheet.columns.waterlines])
-    wild = wild_values(sheet.place[order], heights, y[order], sheet.half_unit)
-    for k, j, better in wild:
-        i = order[k]
+    rows = rows_in_order(sheet)
+    told = examine(printed_offsets(sheet, OffsetHints(), ""), top=0)
+    for slip in told.alarms:
+        i, j = rows[slip.row], slip.column
+        better = float(sheet.offsets[i, j]) - slip.off
         if y[i, j] == np.nanmax(y) and better * _FAR < y[i, j]:
             y[i, j] = np.nan
     return float(np.nanmax(y, initial=0.0))

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.testing import assert_array_equal
 
 from assoc_hull.io.offsets.complete_table import end_contours, flat_of_side
-from assoc_hull.io.offsets.doctor import ExaminedTable, examine_offsets, wild_values
 from assoc_hull.io.offsets.hints import OffsetHints, read_hints
 from assoc_hull.io.offsets.net import lines_of_table, net_of_lines
 from assoc_hull.io.offsets.read import build_table, read_offsets
@@ -63,35 +62,11 @@ def test_tables_of_offsets_half_breadths_by_station_and_waterline() -> None:
     assert [note.kind for note in report.assumptions] == ["station zero", "station numbers"]
 
 
-def test_what_looks_wrong_in_a_table_of_offsets_lone() -> None:
-    """What looks wrong in a table of offsets: lone values, wild values, blanks, wrong units."""
-    x, z = np.linspace(0, 1, 11), np.linspace(0, 1, 9)
-    y = 10 * (1 - x[:, None] ** 2) * (0.5 + z - z**2 / 2)
-    y[4, 3] += 0.2
-    assert [(i, j) for i, j, _ in wild_values(x, z, y, np.full(9, 0.0005))] == [(4, 3)]
-
-
-def test_the_doctors_round_every_suspicion_on_a_table() -> None:
-    """The doctor's round: every suspicion on a table in ship axes, noted with its place."""
-    x, z = np.array([0.0, 50.0, 100.0]), np.array([0.0, 3.0, 6.0])
-    y = np.array([[0.0, 0, 1], [0.0, 8, 8], [0.0, 0, 0]])
-    patient = ExaminedTable(
-        ("0", "5", "10"),
-        ("0", "3", "6"),
-        x,
-        z,
-        y,
-        None,
-        None,
-        np.full(3, 0.005),
-        100.0,
-        16.0,
-        6.0,
-        1.0,
-    )
-    book = Notebook()
-    examine_offsets(patient, book)
-    assert book.report().kinds() == ("flat bottom missing",)
+def test_the_reader_notes_every_suspicion_on_a_table() -> None:
+    """Every suspicion on a table in ship axes is noted with its place."""
+    text = "# station 0 = AP\nstation,wl_0,wl_3,wl_6\n0,0,0,1\n5,0,8,8\n10,0,0,0\n"
+    _, report = read_offsets(text, unit="m", length=100.0, breadth=16.0, draught=6.0)
+    assert report.kinds() == ("flat bottom missing",)
 
 
 def test_which_column_of_an_offset_table_holds() -> None:
