@@ -109,6 +109,11 @@ class Column(Generic[S]):
         self._differing = 0
 
     @property
+    def content(self) -> object:
+        """What holds the rows, another object as soon as nobody else is to see a write."""
+        return self.data
+
+    @property
     def store(self) -> NDArray[S]:
         """The array, to be written to; nobody else has it from now on."""
         self._own()
@@ -359,6 +364,11 @@ class SparseColumn(Column[S]):
         return found
 
     @property
+    def content(self) -> object:
+        """What holds the rows; made anew with every write."""
+        return self._held
+
+    @property
     def store(self) -> NDArray[S]:
         """The rows are written by `put`: there is no array of them all."""
         raise TypeError("the rows of this column are written by put")
@@ -563,6 +573,11 @@ class ValueColumn(Generic[V]):
         self.writes = next(_WRITES)  # as for numbers
 
     @property
+    def content(self) -> object:
+        """What holds the rows, as of numbers."""
+        return self.data
+
+    @property
     def store(self) -> list[V]:
         """The list, to be written to at once; nobody else has it from now on."""
         if self._shared:
@@ -611,7 +626,7 @@ AnyColumn = Column[np.generic] | ValueColumn[object]
 """A column taken by its name, which does not tell what it holds."""
 
 
-_data_of, _writes_of = attrgetter("data"), attrgetter("writes")
+_content_of, _writes_of = attrgetter("content"), attrgetter("writes")
 
 
 def writes_begun() -> int:
@@ -674,12 +689,17 @@ class Table:
 
         What has not been written to since `before` was given is taken from that.
         """
-        if before is not None and self._as_in(before):
-            return before
-        known: Mapping[str, AnyColumn] = {} if before is None else before.columns
-        columns = {name: each.share(known.get(name)) for name, each in self.columns.items()}
-        if before is not None and all(map(is_, columns.values(), known.values())):
-            return before
+        mine = self.columns
+        if before is None:
+            columns = {name: each.share() for name, each in mine.items()}
+        else:
+            columns, pairs = before.columns.copy(), zip(mine.items(), before.columns.values())
+            columns |= {
+                name: each.share(known) for (name, each), known in pairs
+                if each.writes != known.writes or each.content is not known.content
+            }  # fmt: skip
+            if all(map(is_, columns.values(), before.columns.values())):
+                return before
         found = object.__new__(type(self))
         for name, each in columns.items():
             object.__setattr__(found, name, each)  # as attrs does for a frozen class
@@ -689,7 +709,7 @@ class Table:
     def _as_in(self, other: Table) -> bool:
         """Tell whether another table of the kind has the very arrays, and no write since."""
         mine, theirs = self.columns.values(), other.columns.values()
-        same = all(map(is_, map(_data_of, mine), map(_data_of, theirs)))
+        same = all(map(is_, map(_content_of, mine), map(_content_of, theirs)))
         return same and all(map(eq, map(_writes_of, mine), map(_writes_of, theirs)))
 
     def equals(self, other: Table) -> bool:
