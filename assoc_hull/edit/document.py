@@ -337,7 +337,7 @@ class Document:
         """Take a finished step into the history; whatever fails, it is not in it."""
         author = self.author if author is None else author
         branch = self._branch(self.tip if self.undone else None)
-        if self.keeper is None and not step.told_by_writes:
+        if self.keeper is None and step.change is None:
             # The tables tell it now, and never again.
             journal = step.journal
             assert isinstance(journal, Journal), "a step that was just made holds its journal"

@@ -44,6 +44,7 @@ from assoc_hull.model.generated_curves import attached_curves
 from assoc_hull.model.index import build_index, index_columns
 from assoc_hull.model.network import HullNetwork, moved_curves, placed
 from assoc_hull.model.node import Node
+from assoc_hull.model.packed_change import change_of_shape
 from assoc_hull.model.program.engine import is_asked_often, is_compiled
 from assoc_hull.model.program.run_program import ProgramRun, spans
 from assoc_hull.model.program.structure import Program
@@ -372,7 +373,11 @@ class ProgramEdit:
             pending.numbers = self
         seconds = {"run": ran - begin, "check": time.perf_counter() - ran}
         step = self._step(name, rows, away, changed, largest_gap, seconds)
-        step.told_by_writes = plain
+        if plain:
+            step.change = change_of_shape(
+                self.numbers.published.program, self.numbers.published.values,
+                self.numbers.values, self.runs, self.ridden,
+            )  # fmt: skip
         return step
 
     def _run(self, rows: IntArray) -> bool:

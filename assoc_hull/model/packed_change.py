@@ -1,9 +1,8 @@
 """What an edit changed, small: for a history that holds thousands of steps in memory.
 
 A change packs to a few kilobytes: of the bits only words that are not nil, byte by byte of all of
-them, so that those alike lie side by side, and all of it compressed. A journal of places, splines
-and meetings gives its change at any later time, as it holds what was written; that of other edits
-is to be taken right after the edit, by `assoc_hull.model.change.change_of`.
+them, so that those alike lie side by side and can be compressed. What runs of a program have changed
+their numbers tell; the change of other edits is taken by `assoc_hull.model.change.change_of`.
 
 Examples
 --------
@@ -36,7 +35,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.graph.journal import Journal, distinct
+from assoc_hull.graph.journal import distinct
 from assoc_hull.model.change import (
     CrossingPositions,
     TableChange,
@@ -44,7 +43,9 @@ from assoc_hull.model.change import (
     nothing_lies_elsewhere,
     positions_against,
 )
-from assoc_hull.model.tables import CurveIntersections, HullState
+from assoc_hull.model.program.run_program import ProgramRun, begins, spans
+from assoc_hull.model.program.structure import Program, Values
+from assoc_hull.model.tables import HullState
 
 __all__ = ["PackedArrays", "PackedChange", "change_of_shape", "joined_shapes", "with_strays"]
 
@@ -196,28 +197,37 @@ def _rows_and_bits(rows: _Array, bits: _Array) -> tuple[IntArray, NDArray[np.uin
     return cast("IntArray", rows), cast("NDArray[np.uint8]", bits)
 
 
-def change_of_shape(state: HullState, journal: Journal) -> TableChange:
-    """Give the net effect of a journal, at any later time.
+def change_of_shape(
+    program: Program, before: Values, after: Values, runs: Sequence[ProgramRun], ridden: IntArray
+) -> TableChange:
+    """Give the net effect of runs that took the numbers of a net from some to others.
 
-    It has written places of points, gaps, and splines and meetings of curves, no more; and where
-    points lie on curves as their meetings say, which therefore tell it.
+    `ridden` (k,) are points that ride from elsewhere than before. Where points lie on curves their
+    meetings tell.
     """
-    written: dict[int, tuple[list[IntArray], list[_Words]]] = {}
-    for column, rows, old, new in journal.array_writes():
-        places, bits = written.setdefault(id(column), ([], []))
-        places.append(rows)
-        bits.append(_words(old) ^ _words(new))
-    net = {
-        f"rows.{name}": _taken_together(*written[id(column)])
-        for name, column in state.rows.columns.items() if id(column) in written
-    }  # fmt: skip
-    met = journal.first_and_last(state.curves.meets)
+    local = _each_once([each.curves for each in runs])
+    curves = program.number.take(local)
+    order = np.argsort(curves)
+    curves, local = curves.take(order), local.take(order)
+    watched = _each_once([each.watched for each in runs])
+    crossings = program.watch.take(watched)
+    rows = distinct(np.concatenate([crossings, *(each.rows for each in runs)]))
+    bits = {
+        "rows.xyz": _differing(before.xyz, after.xyz, rows, rows),
+        "rows.gap": _differing(before.gap, after.gap, watched, crossings),
+        "rows.anchor_from": _differing(before.anchor_from, after.anchor_from, ridden, ridden),
+        "rows.base": _differing(before.base, after.base, ridden, ridden),
+    }
     return attrs.evolve(
         _NOTHING,
-        bits={name: found for name, found in net.items() if len(found[0])},
-        met=_apart(met.rows, met.old, met.new),
-        lofted=journal.first_and_last(state.curves.spline).rows,
-    )
+        bits={name: found for name, found in bits.items() if len(found[0])},
+        met=_apart(program, before, after, curves, local), lofted=curves,
+    )  # fmt: skip
+
+
+def _each_once(parts: Sequence[IntArray]) -> IntArray:
+    """Give each number of ascending ones once, ascending."""
+    return parts[0] if len(parts) == 1 else distinct(np.concatenate(parts))
 
 
 def joined_shapes(state: HullState, changes: Iterable[TableChange]) -> TableChange:
@@ -305,27 +315,31 @@ def _taken_together(
     return row[odd], bit[odd].view(np.uint8)
 
 
+def _differing(
+    before: FloatArray, after: FloatArray, items: IntArray, rows: IntArray
+) -> tuple[IntArray, NDArray[np.uint8]]:
+    """Compare items of two arrays that stand for rows of a table: the rows that differ, and bits."""
+    bits = _words(before.take(items, axis=0)) ^ _words(after.take(items, axis=0))
+    odd = bits.any(axis=1)
+    return (rows, bits.view(np.uint8)) if odd.all() else (rows[odd], bits[odd].view(np.uint8))
+
+
 def _apart(
-    curves: IntArray, old: Sequence[CurveIntersections], new: Sequence[CurveIntersections]
+    program: Program, before: Values, after: Values, curves: IntArray, local: IntArray
 ) -> tuple[IntArray, NDArray[np.uint8]]:
     """Compare meetings of curves; curves with the very same ones are left out."""
-    if not len(curves):
-        return nothing_lies_elsewhere()
-    start = np.zeros(len(new) + 1, np.int64)
-    np.cumsum([len(each.line) for each in new], out=start[1:])
-    bits = np.empty((int(start[-1]), 4), np.int64)
-    bits[:, 0] = _differing([each.parameter for each in old], [each.parameter for each in new])
-    bits[:, 1:] = _differing([each.xyz for each in old], [each.xyz for each in new])
-    moved = np.logical_or.reduceat(np.append(bits.any(axis=1), False), start[:-1])
-    moved &= start[1:] > start[:-1]
+    start, where = begins(program.meet_start, local), spans(program.meet_start, local)
+    bits = np.empty((len(where), 4), np.int64)
+    for part, name in ((slice(1), "at"), (slice(1, 4), "place")):
+        old, new = (_words(getattr(each, name).take(where, axis=0)) for each in (before, after))
+        bits[:, part] = old ^ new
+    moved = np.zeros(len(local), np.bool_)
+    some = np.flatnonzero(start[1:] > start[:-1])
+    if len(some):
+        moved[some] = np.logical_or.reduceat(bits.any(axis=1), start[some])
     if not moved.all():
         curves, bits = curves[moved], bits[np.repeat(moved, np.diff(start))]
     return curves, bits.view(np.uint8)
-
-
-def _differing(old: Sequence[FloatArray], new: Sequence[FloatArray]) -> _Words:
-    """Give the exclusive or of arrays, one behind the other."""
-    return np.concatenate(old).view(np.int64) ^ np.concatenate(new).view(np.int64)
 
 
 def with_strays(state: HullState, change: TableChange) -> TableChange:
