@@ -375,8 +375,8 @@ class ProgramEdit:
         step = self._step(name, rows, away, changed, largest_gap, seconds)
         if plain:
             step.change = change_of_shape(
-                self.numbers.published.program, self.numbers.published.values,
-                self.numbers.values, self.runs, self.ridden,
+                self.numbers.runner, self.numbers.published.values, self.numbers.values,
+                self.runs, self.ridden,
             )  # fmt: skip
         return step
 

@@ -43,8 +43,8 @@ from assoc_hull.model.change import (
     nothing_lies_elsewhere,
     positions_against,
 )
-from assoc_hull.model.program.run_program import ProgramRun, begins, spans
-from assoc_hull.model.program.structure import Program, Values
+from assoc_hull.model.program.run_program import ProgramRun, RunProgram
+from assoc_hull.model.program.structure import Values
 from assoc_hull.model.tables import HullState
 
 __all__ = ["PackedArrays", "PackedChange", "change_of_shape", "joined_shapes", "with_strays"]
@@ -198,30 +198,32 @@ def _rows_and_bits(rows: _Array, bits: _Array) -> tuple[IntArray, NDArray[np.uin
 
 
 def change_of_shape(
-    program: Program, before: Values, after: Values, runs: Sequence[ProgramRun], ridden: IntArray
+    runner: RunProgram, before: Values, after: Values, runs: Sequence[ProgramRun], ridden: IntArray
 ) -> TableChange:
     """Give the net effect of runs that took the numbers of a net from some to others.
 
     `ridden` (k,) are points that ride from elsewhere than before. Where points lie on curves their
     meetings tell.
     """
+    program = runner.program
     local = _each_once([each.curves for each in runs])
     curves = program.number.take(local)
     order = np.argsort(curves)
-    curves, local = curves.take(order), local.take(order)
+    lofted, local = curves.take(order), local.take(order)
     watched = _each_once([each.watched for each in runs])
     crossings = program.watch.take(watched)
     rows = distinct(np.concatenate([crossings, *(each.rows for each in runs)]))
+    found = runner.compare(after, before, rows, watched, local)
     bits = {
-        "rows.xyz": _differing(before.xyz, after.xyz, rows, rows),
-        "rows.gap": _differing(before.gap, after.gap, watched, crossings),
-        "rows.anchor_from": _differing(before.anchor_from, after.anchor_from, ridden, ridden),
-        "rows.base": _differing(before.base, after.base, ridden, ridden),
+        "rows.xyz": (found.rows, found.xyz.view(np.uint8)),
+        "rows.gap": (program.watch.take(found.watched), found.gap.view(np.uint8)),
+        "rows.anchor_from": _differing(before.anchor_from, after.anchor_from, ridden),
+        "rows.base": _differing(before.base, after.base, ridden),
     }
     return attrs.evolve(
         _NOTHING,
-        bits={name: found for name, found in bits.items() if len(found[0])},
-        met=_apart(program, before, after, curves, local), lofted=curves,
+        bits={name: each for name, each in bits.items() if len(each[0])},
+        met=(program.number.take(found.curves), found.met.view(np.uint8)), lofted=lofted,
     )  # fmt: skip
 
 
@@ -316,30 +318,14 @@ def _taken_together(
 
 
 def _differing(
-    before: FloatArray, after: FloatArray, items: IntArray, rows: IntArray
+    before: FloatArray, after: FloatArray, rows: IntArray
 ) -> tuple[IntArray, NDArray[np.uint8]]:
-    """Compare items of two arrays that stand for rows of a table: the rows that differ, and bits."""
-    bits = _words(before.take(items, axis=0)) ^ _words(after.take(items, axis=0))
+    """Compare rows of two arrays: those that differ, and the bits."""
+    if not len(rows):
+        return rows, np.zeros((0, 0), np.uint8)
+    bits = _words(before.take(rows, axis=0)) ^ _words(after.take(rows, axis=0))
     odd = bits.any(axis=1)
-    return (rows, bits.view(np.uint8)) if odd.all() else (rows[odd], bits[odd].view(np.uint8))
-
-
-def _apart(
-    program: Program, before: Values, after: Values, curves: IntArray, local: IntArray
-) -> tuple[IntArray, NDArray[np.uint8]]:
-    """Compare meetings of curves; curves with the very same ones are left out."""
-    start, where = begins(program.meet_start, local), spans(program.meet_start, local)
-    bits = np.empty((len(where), 4), np.int64)
-    for part, name in ((slice(1), "at"), (slice(1, 4), "place")):
-        old, new = (_words(getattr(each, name).take(where, axis=0)) for each in (before, after))
-        bits[:, part] = old ^ new
-    moved = np.zeros(len(local), np.bool_)
-    some = np.flatnonzero(start[1:] > start[:-1])
-    if len(some):
-        moved[some] = np.logical_or.reduceat(bits.any(axis=1), start[some])
-    if not moved.all():
-        curves, bits = curves[moved], bits[np.repeat(moved, np.diff(start))]
-    return curves, bits.view(np.uint8)
+    return rows[odd], bits[odd].view(np.uint8)
 
 
 def with_strays(state: HullState, change: TableChange) -> TableChange:
