@@ -161,7 +161,8 @@ class Document:
     varied_before : VariedValues
         What variations had given the hull that this one was copied from.
     when_published : callable or None
-        What is still to be done with a step that was committed, as soon as it is published.
+        What is still to be done with a step that was committed, as soon as it is published. It has
+        kept the structure: look-ups of the state before are those of the one after it.
     """
 
     state: HullState = attrs.field(converter=_live_tables)
@@ -298,9 +299,9 @@ class Document:
                 self.keeper.end()
         finally:
             self.state.end_writing()
-            if self.known_index is not None:
-                self.index_of(self.state.published(), self.known_index)
             act, self.when_published = self.when_published, None
+            if self.known_index is not None and act is None:
+                self.index_of(self.state.published(), self.known_index)
             try:
                 if act is not None:
                     act()

@@ -686,12 +686,13 @@ class Table:
         elif self._as_in(before):
             return before
         else:
-            columns, pairs = before.columns.copy(), zip(self.columns.items(), before.columns.values())
+            columns, theirs = before.columns.copy(), before.columns.values()
+            pairs = zip(self.columns.items(), theirs, strict=True)
             columns |= {
                 name: each.share(known) for (name, each), known in pairs
                 if each.writes != known.writes or each._store is not known._store
             }  # fmt: skip
-            if all(map(is_, columns.values(), before.columns.values())):
+            if all(map(is_, columns.values(), theirs)):
                 return before
         found = object.__new__(type(self))
         for name, each in columns.items():

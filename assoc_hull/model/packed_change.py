@@ -1,8 +1,8 @@
 """What an edit changed, small: for a history that holds thousands of steps in memory.
 
 A change packs to a few kilobytes: of the bits only words that are not nil, byte by byte of all of
-them, so that those alike lie side by side and can be compressed. What runs of a program have changed
-their numbers tell; the change of other edits is taken by `assoc_hull.model.change.change_of`.
+them, so that those alike lie side by side and can be compressed. What runs of a program have
+changed their numbers tell; what other edits have, `assoc_hull.model.change.change_of`.
 
 Examples
 --------
@@ -35,7 +35,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.graph.journal import distinct
+from assoc_hull.graph.journal import distinct, each_once
 from assoc_hull.model.change import (
     CrossingPositions,
     TableChange,
@@ -206,11 +206,11 @@ def change_of_shape(
     meetings tell.
     """
     program = runner.program
-    local = _each_once([each.curves for each in runs])
+    local = each_once([each.curves for each in runs])
     curves = program.number.take(local)
     order = np.argsort(curves)
     lofted, local = curves.take(order), local.take(order)
-    watched = _each_once([each.watched for each in runs])
+    watched = each_once([each.watched for each in runs])
     crossings = program.watch.take(watched)
     rows = distinct(np.concatenate([crossings, *(each.rows for each in runs)]))
     found = runner.compare(after, before, rows, watched, local)
@@ -225,11 +225,6 @@ def change_of_shape(
         bits={name: each for name, each in bits.items() if len(each[0])},
         met=(program.number.take(found.curves), found.met.view(np.uint8)), lofted=lofted,
     )  # fmt: skip
-
-
-def _each_once(parts: Sequence[IntArray]) -> IntArray:
-    """Give each number of ascending ones once, ascending."""
-    return parts[0] if len(parts) == 1 else distinct(np.concatenate(parts))
 
 
 def joined_shapes(state: HullState, changes: Iterable[TableChange]) -> TableChange:

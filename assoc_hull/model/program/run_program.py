@@ -111,7 +111,8 @@ class NetEffect:
     watched, gap : (w,) int, (w, 1) int
         The same of gaps of watched crossings.
     curves, met : (c,) int, (q, 4) int
-        The same of curves whose meetings lie elsewhere: chord parameters and places, curve by curve.
+        The same of curves whose meetings lie elsewhere: chord parameters and places, curve by
+        curve.
     """
 
     rows: IntArray
