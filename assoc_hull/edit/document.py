@@ -128,7 +128,7 @@ def _live_tables(state: HullState) -> HullState:
     return state.live_tables
 
 
-@attrs.define(eq=False)
+@attrs.define(eq=False, on_setattr=attrs.setters.NO_OP)
 class Document:
     """A hull's tables, the look-ups derived from them, and the steps that made them.
 
@@ -165,7 +165,7 @@ class Document:
         kept the structure: look-ups of the state before are those of the one after it.
     """
 
-    state: HullState = attrs.field(converter=_live_tables)
+    state: HullState = attrs.field(converter=_live_tables, on_setattr=attrs.setters.convert)
     history: list[Step] = attrs.field(factory=list)
     undone: list[Step] = attrs.field(factory=list)
     steps: dict[int, Step] = attrs.field(factory=dict)

@@ -40,6 +40,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal, PickedRows, each_once
 from assoc_hull.graph.network import Evaluation, distinct
 from assoc_hull.graph.run_update import UpdatePass, run_update
+from assoc_hull.model.change import TableChange
 from assoc_hull.model.index import build_index, index_columns
 from assoc_hull.model.network import HullNetwork, moved_curves, placed
 from assoc_hull.model.node import Node
@@ -368,17 +369,10 @@ class ProgramEdit:
         written = len(journal.entries)
         if self.numbers.published.program.features.own(changed):
             settle_features(work, rows, changed)
-        plain = len(journal.entries) == written
-        if plain:  # else the structure is another one from here on
+        if len(journal.entries) == written:  # else the structure is another one from here on
             pending.numbers = self
         seconds = {"run": ran - begin, "check": time.perf_counter() - ran}
-        step = self._step(name, rows, away, changed, largest_gap, seconds)
-        if plain:
-            step.change = change_of_shape(
-                self.numbers.runner, self.numbers.published.values, self.numbers.values,
-                self.runs, self.ridden,
-            )  # fmt: skip
-        return step
+        return self._step(name, rows, away, changed, largest_gap, seconds)
 
     def _run(self, rows: IntArray) -> bool:
         """Run with points as they are in the tables now; tell whether that is the whole edit."""
@@ -476,6 +470,13 @@ class ProgramEdit:
         if len(self.passes) > 1:  # a curve may have gone away and come back
             return Step(name, structural=False, body=notes.body())
         return Step.told_later(name, self.journal, changed, curves, notes)
+
+    def change(self) -> TableChange:
+        """Give what the edit has changed."""
+        numbers = self.numbers
+        return change_of_shape(
+            numbers.runner, numbers.published.values, numbers.values, self.runs, self.ridden
+        )
 
     def publish(self) -> None:
         """Keep the numbers of what has just been published."""

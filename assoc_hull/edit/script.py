@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from typing import Literal
 
 import attrs
@@ -68,11 +69,10 @@ def _modify(edit: Edit, change: object, where: str) -> None:
     if not isinstance(change, Mapping) or not all(isinstance(key, str) for key in change):
         raise WrongTypeError(f"it is {shown(change)}", where, 'give {"op": "move", "point": ...}')
     arguments = dict(change)
-    name, known = arguments.pop("op", ""), _operations(edit)
+    name, known = arguments.pop("op", ""), _operations()
     if not isinstance(name, str) or name not in known:
-        raise UnknownNameError("modification", shown_name(name), known)
-    method = getattr(edit, name)
-    takes = inspect.signature(method)
+        raise UnknownNameError("modification", shown_name(name), tuple(known))
+    method, takes = getattr(edit, name), known[name]
     any_name = any(each.kind is each.VAR_KEYWORD for each in takes.parameters.values())
     for given in arguments:
         if given not in takes.parameters and not any_name:
@@ -85,12 +85,16 @@ def _modify(edit: Edit, change: object, where: str) -> None:
     method(**arguments)
 
 
-def _operations(edit: Edit) -> tuple[str, ...]:
-    return tuple(
-        name
-        for name in sorted(vars(type(edit)))
-        if not name.startswith("_") and callable(getattr(type(edit), name))
-    )
+@cache
+def _operations() -> Mapping[str, inspect.Signature]:
+    """Give what the public methods of an edit take, by name."""
+    found = dict[str, inspect.Signature]()
+    for name in sorted(vars(Edit)):
+        method = getattr(Edit, name)
+        if not name.startswith("_") and callable(method):
+            takes = inspect.signature(method)
+            found[name] = takes.replace(parameters=tuple(takes.parameters.values())[1:])
+    return found
 
 
 # --------------------------------------------------------------------------------------

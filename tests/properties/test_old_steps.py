@@ -124,11 +124,11 @@ def test_what_the_numbers_tell_of_an_edit_is_what_was_written(
             carry_out(hull, each)
             if len(hull.history) == count:
                 continue
-            step = hull.document.history[-1]
+            step, tables = hull.document.history[-1], hull.document.state
             assert step.change is not None
             assert isinstance(step.journal, Journal)
-            found = with_strays(hull.state, step.change)
-            expected = changes.change_of(hull.state, step.journal)
+            found = with_strays(tables, step.change)
+            expected = changes.change_of(tables, step.journal)
             assert list(found.bits) == list(expected.bits)
             for mine, written in zip(
                 [*found.bits.values(), found.moved, found.met],

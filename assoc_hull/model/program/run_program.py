@@ -215,7 +215,7 @@ class NumpyProgram:
 def _apart(old: FloatArray, new: FloatArray, items: IntArray) -> IntArray:
     """Give the exclusive or of the bits of items of two arrays, (k, numbers of an item)."""
     bits = old[items].view(np.int64) ^ new[items].view(np.int64)
-    return bits.reshape(len(items), -1) if old.ndim > 1 else bits[:, None]
+    return bits if old.ndim > 1 else bits[:, None]
 
 
 def differs(old: FloatArray, new: FloatArray) -> NDArray[np.bool_]:
