@@ -430,7 +430,7 @@ class ProgramEdit:
         rows, guess = state.rows, self.document.index.guess.reshape(-1)
         self.journal.put_parts(rows.spot, to.part, PickedRows(xyz, to.pick))
         self.journal.put_parts(rows.parameter, to.part, PickedRows(at, to.pick))
-        if len(guess) == 2 * rows.count:
+        if len(guess) == rows.curve.data.size:
             guess[to.part] = values.segment.take(to.where if to.pick is None else to.where[to.pick])
 
     def _note_riding(self) -> None:

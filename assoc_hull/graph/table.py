@@ -550,6 +550,8 @@ class ValueColumn(Generic[V]):
     list, and `writes` tells of the last write, as those of numbers do.
     """
 
+    _store = None  # there is no write to the list that has no number of its own
+
     def __init__(self, fill: V | None) -> None:
         self.data: list[V] = []
         self.fill = fill
@@ -563,11 +565,6 @@ class ValueColumn(Generic[V]):
         self.data, self.fill = state
         self._shared = False
         self.writes = next(_WRITES)  # as for numbers
-
-    @property
-    def _store(self) -> list[V]:
-        """What holds the rows, as of numbers."""
-        return self.data
 
     @property
     def store(self) -> list[V]:
