@@ -108,6 +108,8 @@ def number(value: object, name: str, where: str = _CALL, *, unit: str = "m") -> 
     >>> number("3.5", "y")
     3.5
     """
+    if type(value) is float and abs(value) <= _LARGEST:
+        return value
     try:
         found = float(value) if np.ndim(value) == 0 else float("nan")  # type: ignore[arg-type]
     except _FAILS:

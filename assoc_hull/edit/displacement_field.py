@@ -589,8 +589,8 @@ class PullField:
         """
         table = state.rows
         watched = table.role.data[self.row] == Role.WATCHED
-        crossing = table.sort.data[self.row] == Sort.CROSSING
-        now = table.spot.data[self.row, 0] if watched and crossing else table.xyz.data[self.row]
+        watched = watched and table.sort.data[self.row] == Sort.CROSSING
+        now = table.spot.data[self.row, 0] if watched else table.xyz.data[self.row]
         way = zip(now.tolist(), self.place.tolist(), self.normal.tolist(), strict=True)
         x, y, z = [(to - at) * along for to, at, along in way]
         return float(x + y + z)

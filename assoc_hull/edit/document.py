@@ -128,7 +128,7 @@ def _live_tables(state: HullState) -> HullState:
     return state.live_tables
 
 
-@attrs.define(eq=False)
+@attrs.define(eq=False, on_setattr=attrs.setters.NO_OP)
 class Document:
     """A hull's tables, the look-ups derived from them, and the steps that made them.
 
@@ -161,10 +161,11 @@ class Document:
     varied_before : VariedValues
         What variations had given the hull that this one was copied from.
     when_published : callable or None
-        What is still to be done with a step that was committed, as soon as it is published.
+        What is still to be done with a step that was committed, as soon as it is published. It has
+        kept the structure: look-ups of the state before are those of the one after it.
     """
 
-    state: HullState = attrs.field(converter=_live_tables)
+    state: HullState = attrs.field(converter=_live_tables, on_setattr=attrs.setters.convert)
     history: list[Step] = attrs.field(factory=list)
     undone: list[Step] = attrs.field(factory=list)
     steps: dict[int, Step] = attrs.field(factory=dict)
@@ -298,9 +299,9 @@ class Document:
                 self.keeper.end()
         finally:
             self.state.end_writing()
-            if self.known_index is not None:
-                self.index_of(self.state.published(), self.known_index)
             act, self.when_published = self.when_published, None
+            if self.known_index is not None and act is None:
+                self.index_of(self.state.published(), self.known_index)
             try:
                 if act is not None:
                     act()
@@ -337,7 +338,7 @@ class Document:
         """Take a finished step into the history; whatever fails, it is not in it."""
         author = self.author if author is None else author
         branch = self._branch(self.tip if self.undone else None)
-        if self.keeper is None and not step.told_by_writes:
+        if self.keeper is None and step.change is None:
             # The tables tell it now, and never again.
             journal = step.journal
             assert isinstance(journal, Journal), "a step that was just made holds its journal"

@@ -28,6 +28,7 @@ from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.run_update import UpdatePass, run_update
+from assoc_hull.model.change import TableChange
 from assoc_hull.model.kinds import State
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.network import HullNetwork
@@ -113,6 +114,9 @@ M = TypeVar("M", bound=Modification)
 
 class TriedNumbers(Protocol):
     """Numbers of a program that an edit was carried out with."""
+
+    def change(self) -> TableChange:
+        """Give what the edit has changed."""
 
     def publish(self) -> None:
         """Keep them: they are those of the tables, which have just been published."""

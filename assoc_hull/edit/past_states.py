@@ -26,7 +26,6 @@ from assoc_hull.model.change import TableChange, apply_change
 from assoc_hull.model.packed_change import (
     PackedArrays,
     PackedChange,
-    change_of_shape,
     joined_shapes,
 )
 from assoc_hull.model.tables import HullState
@@ -186,9 +185,9 @@ class PastStates:
 
     def _change(self, step: Step) -> TableChange:
         journal, change = step.journal, step.change
-        if isinstance(journal, Journal):
-            return change_of_shape(self.document.state, journal) if change is None else change
-        assert isinstance(journal, Rerun | PackedWrites), "a step holds its journal or its change"
+        if change is not None:
+            return change
+        assert isinstance(journal, Rerun | PackedWrites), "a step of a hull in memory has a change"
         return journal.change
 
 
@@ -257,8 +256,8 @@ def pack_step(step: Step, past: PastStates) -> None:
     state, journal = past.document.state, step.journal
     if not isinstance(journal, Journal):  # it is packed already
         return
-    change = change_of_shape(state, journal) if step.change is None else step.change
-    writes = PackedWrites(state, PackedChange.of(change))
+    assert step.change is not None, "a step of a hull in memory has a change"
+    writes = PackedWrites(state, PackedChange.of(step.change))
     notes = _packed_body(step, past, writes) if step.notes is None else step.notes
     step.let_go(writes, notes.packed(past, step, writes))
 

@@ -37,13 +37,14 @@ from assoc_hull.edit.report import EditReport, Fairness
 from assoc_hull.edit.step import Notes, Past, Step, StepBody, Writes
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.journal import Journal, PickedRows
+from assoc_hull.graph.journal import Journal, PickedRows, each_once
 from assoc_hull.graph.network import Evaluation, distinct
 from assoc_hull.graph.run_update import UpdatePass, run_update
-from assoc_hull.model.generated_curves import attached_curves
+from assoc_hull.model.change import TableChange
 from assoc_hull.model.index import build_index, index_columns
 from assoc_hull.model.network import HullNetwork, moved_curves, placed
 from assoc_hull.model.node import Node
+from assoc_hull.model.packed_change import change_of_shape
 from assoc_hull.model.program.engine import is_asked_often, is_compiled
 from assoc_hull.model.program.run_program import ProgramRun, spans
 from assoc_hull.model.program.structure import Program
@@ -61,14 +62,15 @@ _NONE: IntArray = np.zeros(0, np.int64)
 class _Pass:
     """One run: the points that were set, those that moved for it, the curves that were lofted.
 
-    `held` are adopted points that did not ride, `step` (k, 3), m, is how far `rows` moved; `odd`
-    (c,) tells which curves differ from the published ones.
+    `held` are adopted points that did not ride; `was` and `now` (k, 3), m, is where `rows` lay
+    before and after; `odd` (c,) tells which curves differ from the published ones.
     """
 
     seeds: IntArray
     held: IntArray
     rows: IntArray
-    step: FloatArray
+    was: FloatArray
+    now: FloatArray
     curves: IntArray
     old: Sequence[SplineBatch]
     new: Sequence[SplineBatch]
@@ -76,7 +78,7 @@ class _Pass:
 
     def distances(self) -> dict[int, float]:
         """Give how far each node moved, m; curves that came out as they were are left out."""
-        step = self.step
+        step = self.now - self.was
         point = np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
         found = dict(zip(Node.point(self.rows).tolist(), point.tolist(), strict=True))
         if len(self.curves):
@@ -274,7 +276,7 @@ class _PackedNotes:
         new = [state.spline(each) for each in numbers]
         odd = moved_curves(old, new, SplineBatch.join(new)) != 0.0 if new else np.zeros(0, np.bool_)
         run = _Pass(
-            self.seeds, self.held, self.rows, xyz[self.rows] - before.xyz[self.rows], self.curves,
+            self.seeds, self.held, self.rows, before.xyz[self.rows], xyz[self.rows], self.curves,
             old, new, odd,
         )  # fmt: skip
         movements = Movements.of(state, self.changed, before.xyz[self.changed])
@@ -324,7 +326,7 @@ class ProgramEdit:
     @classmethod
     def begun(cls, document: Document, pending: Pending) -> ProgramEdit | None:
         """Take numbers to write to; None for a hull with curves that a program does not make."""
-        found = None if attached_curves(document.state) else numbers_for_edit(document)
+        found = None if document.index.generated else numbers_for_edit(document)
         return None if found is None else cls(document, pending, *found)
 
     def run(
@@ -367,20 +369,17 @@ class ProgramEdit:
         written = len(journal.entries)
         if self.numbers.published.program.features.own(changed):
             settle_features(work, rows, changed)
-        plain = len(journal.entries) == written
-        if plain:  # else the structure is another one from here on
+        if len(journal.entries) == written:  # else the structure is another one from here on
             pending.numbers = self
         seconds = {"run": ran - begin, "check": time.perf_counter() - ran}
-        step = self._step(name, rows, away, changed, largest_gap, seconds)
-        step.told_by_writes = plain
-        return step
+        return self._step(name, rows, away, changed, largest_gap, seconds)
 
     def _run(self, rows: IntArray) -> bool:
         """Run with points as they are in the tables now; tell whether that is the whole edit."""
         if self.pending.stopped():
             return False  # the full way says so
         held = np.array(sorted(self.pending.held), np.int64)
-        self.numbers.values.xyz[rows] = self.document.state.rows.xyz[rows]
+        self.numbers.values.xyz[rows] = self.document.state.rows.xyz.take(rows)
         found = self.numbers.run(rows, held)
         self.runs.append(found)
         if found.kept:
@@ -395,20 +394,19 @@ class ProgramEdit:
         others = np.ones(len(run.rows), np.bool_)
         others[run.rows.searchsorted(seeds)] = False
         rows = run.rows[others]
-        place = values.xyz[rows]
-        step = place - state.rows.xyz[rows]
-        self.journal.put(state.rows.xyz, rows, place)
-        curves = program.number[run.curves]
+        was, now = state.rows.xyz.take(rows), values.xyz.take(rows, axis=0)
+        self.journal.put(state.rows.xyz, rows, now)
+        curves = program.number.take(run.curves)
         numbers, table, shape = curves.tolist(), state.curves, state.curves.spline.data
         # A program has a shape of every curve.
-        old = [cast("SplineBatch", shape[curve]) for curve in numbers]
+        old = cast("list[SplineBatch]", [shape[curve] for curve in numbers])
         new, odd = list[SplineBatch](), np.zeros(0, np.bool_)
         if numbers:
             batch, odd = self.numbers.told_splines(run.curves)
             new = batch.single()
             self.journal.set(table.spline, numbers, new)
             self._write_meetings(run.curves, numbers)
-        self.passes.append(_Pass(seeds, held, rows, step, curves, old, new, odd))
+        self.passes.append(_Pass(seeds, held, rows, was, now, curves, old, new, odd))
 
     def _write_meetings(self, local: IntArray, numbers: list[int]) -> None:
         """Write where curves meet the planes of others, and crossings lie on them."""
@@ -432,7 +430,7 @@ class ProgramEdit:
         rows, guess = state.rows, self.document.index.guess.reshape(-1)
         self.journal.put_parts(rows.spot, to.part, PickedRows(xyz, to.pick))
         self.journal.put_parts(rows.parameter, to.part, PickedRows(at, to.pick))
-        if len(guess) == 2 * rows.count:
+        if len(guess) == rows.curve.data.size:
             guess[to.part] = values.segment.take(to.where if to.pick is None else to.where[to.pick])
 
     def _note_riding(self) -> None:
@@ -446,12 +444,12 @@ class ProgramEdit:
     def _write_gaps(self) -> float:
         """Write the gaps that the runs have measured, none over its limit; give the largest."""
         values, rows = self.numbers.values, self.document.state.rows
-        watched = distinct(np.concatenate([each.watched for each in self.runs]))
-        gap = values.gap[watched]
-        crossings: IntArray = self.numbers.published.program.watch[watched]
+        watched = each_once([each.watched for each in self.runs])
+        gap = values.gap.take(watched)
+        crossings: IntArray = self.numbers.published.program.watch.take(watched)
         self.journal.put(rows.gap, crossings, gap)
         # A watched crossing is published where it lies on curve a.
-        self.journal.put(rows.xyz, crossings, rows.spot[crossings, 0])
+        self.journal.put(rows.xyz, crossings, values.xyz.take(crossings, axis=0))
         return float(gap.max(initial=0.0))
 
     def _step(
@@ -472,6 +470,13 @@ class ProgramEdit:
         if len(self.passes) > 1:  # a curve may have gone away and come back
             return Step(name, structural=False, body=notes.body())
         return Step.told_later(name, self.journal, changed, curves, notes)
+
+    def change(self) -> TableChange:
+        """Give what the edit has changed."""
+        numbers = self.numbers
+        return change_of_shape(
+            numbers.runner, numbers.published.values, numbers.values, self.runs, self.ridden
+        )
 
     def publish(self) -> None:
         """Keep the numbers of what has just been published."""

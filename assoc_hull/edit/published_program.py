@@ -9,6 +9,7 @@ has written, so that nothing as large as the hull is copied. Numbers that a drag
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from operator import attrgetter
 from typing import Protocol
 
 import attrs
@@ -260,8 +261,9 @@ def _objects(
     return [state.spline(each) for each in curves], [state.curves.meets[each] for each in curves]
 
 
-def _arrays(values: Values) -> list[np.typing.NDArray[np.generic]]:
-    return [getattr(values, each.name) for each in attrs.fields(Values)]
+_arrays: Callable[[Values], tuple[NDArray[np.generic], ...]] = attrgetter(
+    *(each.name for each in attrs.fields(Values))
+)
 
 
 def _numbers(state: HullState, program: Program, make: Callable[[], Values]) -> Values:
@@ -314,5 +316,5 @@ def _read(state: HullState, program: Program, last: _Read | None) -> Values:
         values.folds[odd] = np.bincount(curve_folds(batch).curve, minlength=len(odd))
         values.lowest[odd] = np.minimum.reduceat(batch.xyz[:, 1], batch.start[:-1])
     values.gap[:] = table.gap[program.watch]
-    freeze(*(getattr(values, each.name) for each in attrs.fields(Values)))
+    freeze(*_arrays(values))
     return values

@@ -22,6 +22,7 @@ from typing import Concatenate, ParamSpec, Protocol, Self, TypeVar
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import choice
 from assoc_hull.errors import AssocHullError
 from assoc_hull.graph.run_update import FailurePolicy
 from assoc_hull.model.address import AddressBook, address
@@ -66,6 +67,34 @@ class Settings:
 
     policy: FailurePolicy = FailurePolicy.ALL_OR_NOTHING
     refuse_gaps: bool = True
+
+    @classmethod
+    def named(cls, policy: str | None, gaps: str | None, else_as: Settings | None = None) -> Self:
+        """Give settings by their public names; what is not named is as in `else_as`.
+
+        Raises
+        ------
+        BadInputError
+            An unknown name.
+
+        Examples
+        --------
+        >>> from assoc_hull.edit.recording import Settings
+        >>> Settings.named("keep_going", "report").refuse_gaps
+        False
+        """
+        usual = else_as or _USUAL
+        if policy is not None:
+            choice(policy, "policy", [each.value for each in FailurePolicy], "in an edit")
+        if gaps is not None:
+            choice(gaps, "gaps", ["refuse", "report"], "in an edit")
+        return cls(
+            usual.policy if policy is None else FailurePolicy(policy),
+            usual.refuse_gaps if gaps is None else gaps == "refuse",
+        )
+
+
+_USUAL = Settings()
 
 
 @attrs.frozen

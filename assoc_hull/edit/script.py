@@ -9,18 +9,18 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from typing import Literal
 
 import attrs
 
-from assoc_hull.arguments import choice, shown, shown_name
+from assoc_hull.arguments import shown, shown_name
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import AssocHullError, UnknownNameError, WrongTypeError
-from assoc_hull.graph.run_update import FailurePolicy
 
 __all__ = [
     "Changes",
@@ -29,36 +29,11 @@ __all__ = [
     "Replayed",
     "carry_out",
     "replay",
-    "settings_of",
 ]
 
 Changes = Callable[[Edit], object] | Sequence[Mapping[str, object]]
 PolicyName = Literal["all_or_nothing", "keep_going"]
 GapsName = Literal["refuse", "report"]
-
-
-def settings_of(policy: str | None, gaps: str | None, else_as: Settings | None = None) -> Settings:
-    """Give the settings by their public names; what is not named is as in `else_as`.
-
-    Raises
-    ------
-    BadInputError
-        An unknown name.
-
-    Examples
-    --------
-    >>> from assoc_hull.edit.script import settings_of
-    >>> settings_of("keep_going", "report").refuse_gaps
-    False
-    """
-    found = else_as or Settings()
-    if policy is not None:
-        choice(policy, "policy", [each.value for each in FailurePolicy], "in an edit")
-        found = attrs.evolve(found, policy=FailurePolicy(policy))
-    if gaps is not None:
-        choice(gaps, "gaps", ["refuse", "report"], "in an edit")
-        found = attrs.evolve(found, refuse_gaps=gaps == "refuse")
-    return found
 
 
 def carry_out(edit: Edit, changes: Changes | None) -> None:
@@ -94,11 +69,10 @@ def _modify(edit: Edit, change: object, where: str) -> None:
     if not isinstance(change, Mapping) or not all(isinstance(key, str) for key in change):
         raise WrongTypeError(f"it is {shown(change)}", where, 'give {"op": "move", "point": ...}')
     arguments = dict(change)
-    name, known = arguments.pop("op", ""), _operations(edit)
+    name, known = arguments.pop("op", ""), _operations()
     if not isinstance(name, str) or name not in known:
-        raise UnknownNameError("modification", shown_name(name), known)
-    method = getattr(edit, name)
-    takes = inspect.signature(method)
+        raise UnknownNameError("modification", shown_name(name), tuple(known))
+    method, takes = getattr(edit, name), known[name]
     any_name = any(each.kind is each.VAR_KEYWORD for each in takes.parameters.values())
     for given in arguments:
         if given not in takes.parameters and not any_name:
@@ -111,12 +85,16 @@ def _modify(edit: Edit, change: object, where: str) -> None:
     method(**arguments)
 
 
-def _operations(edit: Edit) -> tuple[str, ...]:
-    return tuple(
-        name
-        for name in sorted(vars(type(edit)))
-        if not name.startswith("_") and callable(getattr(type(edit), name))
-    )
+@cache
+def _operations() -> Mapping[str, inspect.Signature]:
+    """Give what the public methods of an edit take, by name."""
+    found = dict[str, inspect.Signature]()
+    for name in sorted(vars(Edit)):
+        method = getattr(Edit, name)
+        if not name.startswith("_") and callable(method):
+            takes = inspect.signature(method)
+            found[name] = takes.replace(parameters=tuple(takes.parameters.values())[1:])
+    return found
 
 
 # --------------------------------------------------------------------------------------
@@ -167,7 +145,7 @@ def _again(document: Document, step: Step) -> Replayed:
     if not script.repeatable:
         return Replayed(step.name, None, _UNKNOWN)
     try:
-        with Edit(document, step.name, settings_of(script.policy, script.gaps)) as edit:
+        with Edit(document, step.name, Settings.named(script.policy, script.gaps)) as edit:
             carry_out(edit, script.edits)
     except AssocHullError as error:
         return Replayed(step.name, None, str(error))

@@ -143,10 +143,8 @@ class Step:
         Gives the body; the step then need not hold it.
     tell : callable or None
         Gives the report alone, which is a small part of the body.
-    told_by_writes : bool
-        Whether its writes tell at any later time what it changed.
     change : TableChange or None
-        What it changed, where they do not.
+        What it changed, of a hull in memory.
     """
 
     name: str
@@ -157,7 +155,6 @@ class Step:
     fingerprint: str = ""
     load: Callable[[], StepBody] | None = None
     tell: Callable[[], EditReport] | None = None
-    told_by_writes: bool = False
     change: TableChange | None = None
     _body: StepBody | None = None
     _later: _ToldLater | None = None

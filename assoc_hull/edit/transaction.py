@@ -349,10 +349,12 @@ class Transaction:
             step = update(self.document, self.name, self.journal, self.pending, self.settings)
         if self.look is None:
             step.script = Script.of(self.script, self.settings, self.varied, self.varied_before)
+            if (known := self.pending.numbers) is not None:
+                step.change = known.change()
             # Known before it is committed: behind that nothing is taken back.
             self._step = step
             self.document.commit(step, self.author)
-            if (known := self.pending.numbers) is not None:
+            if known is not None:
                 self.document.when_published = known.publish
         self._step = step
 

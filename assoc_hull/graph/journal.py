@@ -22,9 +22,9 @@ array([0, 1])
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
-from typing import Generic, NamedTuple, Protocol, TypeVar, overload
+from typing import Generic, Protocol, TypeVar, overload
 
 import attrs
 import numpy as np
@@ -34,12 +34,12 @@ from assoc_hull.graph.table import AnyColumn, Column, Table, ValueColumn, put_ro
 
 __all__ = [
     "ArrayChange",
-    "ArrayWrite",
     "Journal",
     "PickedRows",
     "ValueChange",
     "both_parts",
     "distinct",
+    "each_once",
     "same_value",
 ]
 
@@ -72,15 +72,6 @@ class ValueChange(Generic[V]):
     rows: NDArray[np.int64]
     old: list[V]
     new: list[V]
-
-
-class ArrayWrite(NamedTuple):
-    """One write to rows of a column of numbers, each named once."""
-
-    column: Column[np.generic]
-    rows: NDArray[np.int64]
-    old: NDArray[np.generic]
-    new: NDArray[np.generic]
 
 
 class _Entry(Protocol):
@@ -211,6 +202,19 @@ def distinct(numbers: NDArray[np.int64]) -> NDArray[np.int64]:
     first = np.ones(len(ordered), np.bool_)
     np.not_equal(ordered[1:], ordered[:-1], out=first[1:])
     return ordered[first]
+
+
+def each_once(parts: Sequence[NDArray[np.int64]]) -> NDArray[np.int64]:
+    """Give the numbers of arrays, each of them ascending, once: as `distinct` of all, of one as is.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.graph.journal import each_once
+    >>> each_once([np.array([2, 5]), np.array([1, 5])]).tolist()
+    [1, 2, 5]
+    """
+    return parts[0] if len(parts) == 1 else distinct(np.concatenate(parts))
 
 
 def same_value(old: object, new: object) -> bool:
@@ -381,27 +385,6 @@ class Journal:
         """Give how many rows a table had before, and has now."""
         grown = [e for e in self.entries if isinstance(e, _GrowEntry) and e.table is table]
         return (grown[0].old if grown else table.count), table.count
-
-    def array_writes(self) -> Iterator[ArrayWrite]:
-        """Give each write to whole rows of numbers in turn."""
-        for entry in self.entries:
-            if isinstance(entry, _ArrayEntry):
-                yield ArrayWrite(entry.column, entry.index, entry.old, entry.new)
-
-    def first_and_last(self, column: ValueColumn[V]) -> ValueChange[V]:
-        """Give what `net` does, by what was written alone: at any later time as well."""
-        old, new = dict[int, V](), dict[int, V]()
-        for entry in self.entries:
-            if isinstance(entry, _ListEntry) and entry.column is column:
-                for row, before, after in zip(entry.index, entry.old, entry.new, strict=True):
-                    old.setdefault(row, before)
-                    new[row] = after
-        numbers = sorted(old)
-        return ValueChange(
-            np.array(numbers, np.int64),
-            [old[row] for row in numbers],
-            [new[row] for row in numbers],
-        )
 
     def columns(self) -> list[AnyColumn]:
         """Give every column that was written, each once, in the order of the first writes."""

@@ -338,7 +338,9 @@ class SparseColumn(Column[S]):
     """
 
     def __init__(self, dtype: type[S] | np.dtype[S], shape: tuple[int, ...], fill: float) -> None:
-        self._held: _Held[S] = _Held(np.zeros(0, np.int64), np.full((1, *shape), fill, dtype))
+        self._store: _Held[S] = _Held(  # type: ignore[assignment]  # an array of dense columns
+            np.zeros(0, np.int64), np.full((1, *shape), fill, dtype)
+        )
         self._count = 0
         self.fill = fill
         self.writes = 0
@@ -346,13 +348,13 @@ class SparseColumn(Column[S]):
     def __setstate__(self, state: tuple[NDArray[S], float]) -> None:
         whole, self.fill = state
         blank: NDArray[S] = np.full((1, *whole.shape[1:]), self.fill, whole.dtype)
-        self._held, self._count = _Held(np.zeros(0, np.int64), blank), len(whole)
+        self._store, self._count = _Held(np.zeros(0, np.int64), blank), len(whole)
         self.put(np.arange(len(whole)), whole)
 
     @property
     def data(self) -> NDArray[S]:  # type: ignore[override]  # an attribute of dense columns
         """All rows, as an array of one's own that cannot be written to."""
-        held = self._held
+        held = self._store
         found: NDArray[S] = np.full((self._count, *self.shape), self.fill, self.dtype)
         found[held.rows] = held.values[:-1]
         found.setflags(write=False)
@@ -366,16 +368,16 @@ class SparseColumn(Column[S]):
     @property
     def dtype(self) -> np.dtype[S]:
         """Of the numbers."""
-        return self._held.values.dtype
+        return self._store.values.dtype
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Of one row."""
-        return self._held.values.shape[1:]
+        return self._store.values.shape[1:]
 
     def put(self, rows: NDArray[np.int64], values: NDArray[np.generic]) -> None:
         """Write to rows, each named once."""
-        held, at = self._held, self._held.find(rows)
+        held, at = self._store, self._store.find(rows)
         given = np.asarray(values, self.dtype)
         order, place, fresh = held.rows, held.place, at < 0
         written = held.values.copy()
@@ -394,7 +396,7 @@ class SparseColumn(Column[S]):
                 mine = np.concatenate([written[:-1], some[odd]])[turn]
                 order, place = every[turn], None
                 written = np.concatenate([mine, held.values[-1:]])
-        self._held = _Held(order, written, place)
+        self._store = _Held(order, written, place)
         self.written()
 
     def put_parts(self, part: NDArray[np.int64], values: NDArray[np.generic]) -> None:
@@ -408,7 +410,7 @@ class SparseColumn(Column[S]):
     def take_over(self, other: Column[S]) -> None:
         """Become a copy of a column of as many rows."""
         assert isinstance(other, SparseColumn)
-        self._held, self._count = other._held, other._count
+        self._store, self._count = other._store, other._count
         self.written()
 
     def share(self, before: object = None) -> Self:
@@ -416,7 +418,7 @@ class SparseColumn(Column[S]):
         if isinstance(before, type(self)) and self._same(before) and before.writes == self.writes:
             return before
         found = object.__new__(type(self))
-        found._held, found._count, found.fill = self._held, self._count, self.fill
+        found._store, found._count, found.fill = self._store, self._count, self.fill
         found.writes = self.writes
         return found
 
@@ -427,25 +429,25 @@ class SparseColumn(Column[S]):
         )
 
     def _same(self, other: SparseColumn[np.generic]) -> bool:
-        return other._held is self._held and other._count == self._count
+        return other._store is self._store and other._count == self._count
 
     def resize(self, count: int) -> None:
         """Bring the column to `count` rows; new ones hold the fill value."""
-        held = self._held
+        held = self._store
         if len(held.rows) and held.rows[-1] >= count:
             kept = int(np.searchsorted(held.rows, count))
             mine = np.concatenate([held.values[:kept], held.values[-1:]])
-            self._held = _Held(held.rows[:kept].copy(), mine)
+            self._store = _Held(held.rows[:kept].copy(), mine)
         self._count = count
         self.written()
 
     def take(self, rows: NDArray[np.int64]) -> NDArray[S]:
         """Give a copy of rows (k,)."""
-        return self._held.values.take(self._held.find(rows), axis=0)
+        return self._store.values.take(self._store.find(rows), axis=0)
 
     def take_parts(self, part: NDArray[np.int64]) -> NDArray[S]:
         """Give a copy of parts of rows, as `parts` numbers them."""
-        held, parts = self._held, self.shape[0]
+        held, parts = self._store, self.shape[0]
         if not len(held.rows):
             return np.full((len(part), *self.shape[1:]), self.fill, self.dtype)
         row = part // parts
@@ -477,7 +479,7 @@ class SparseColumn(Column[S]):
         row = row + self._count if row < 0 else row
         if not 0 <= row < self._count:
             raise IndexError(f"row {row} is none of {self._count}")
-        held = self._held
+        held = self._store
         at = int(held.rows.searchsorted(row))
         there = at < len(held.rows) and held.rows[at] == row
         found: NDArray[S] = held.values[at if there else -1]
@@ -548,6 +550,8 @@ class ValueColumn(Generic[V]):
     list, and `writes` tells of the last write, as those of numbers do.
     """
 
+    _store = None  # there is no write to the list that has no number of its own
+
     def __init__(self, fill: V | None) -> None:
         self.data: list[V] = []
         self.fill = fill
@@ -611,7 +615,7 @@ AnyColumn = Column[np.generic] | ValueColumn[object]
 """A column taken by its name, which does not tell what it holds."""
 
 
-_data_of, _writes_of = attrgetter("data"), attrgetter("writes")
+_content_of, _writes_of = attrgetter("_store"), attrgetter("writes")
 
 
 def writes_begun() -> int:
@@ -674,12 +678,19 @@ class Table:
 
         What has not been written to since `before` was given is taken from that.
         """
-        if before is not None and self._as_in(before):
+        if before is None:
+            columns = {name: each.share() for name, each in self.columns.items()}
+        elif self._as_in(before):
             return before
-        known: Mapping[str, AnyColumn] = {} if before is None else before.columns
-        columns = {name: each.share(known.get(name)) for name, each in self.columns.items()}
-        if before is not None and all(map(is_, columns.values(), known.values())):
-            return before
+        else:
+            columns, theirs = before.columns.copy(), before.columns.values()
+            pairs = zip(self.columns.items(), theirs, strict=True)
+            columns |= {
+                name: each.share(known) for (name, each), known in pairs
+                if each.writes != known.writes or each._store is not known._store
+            }  # fmt: skip
+            if all(map(is_, columns.values(), theirs)):
+                return before
         found = object.__new__(type(self))
         for name, each in columns.items():
             object.__setattr__(found, name, each)  # as attrs does for a frozen class
@@ -689,8 +700,9 @@ class Table:
     def _as_in(self, other: Table) -> bool:
         """Tell whether another table of the kind has the very arrays, and no write since."""
         mine, theirs = self.columns.values(), other.columns.values()
-        same = all(map(is_, map(_data_of, mine), map(_data_of, theirs)))
-        return same and all(map(eq, map(_writes_of, mine), map(_writes_of, theirs)))
+        if not all(map(eq, map(_writes_of, mine), map(_writes_of, theirs))):
+            return False
+        return all(map(is_, map(_content_of, mine), map(_content_of, theirs)))
 
     def equals(self, other: Table) -> bool:
         """Tell whether another table of the kind is known to have the same content."""

@@ -24,8 +24,9 @@ from typing import TYPE_CHECKING, Self
 
 from assoc_hull.arguments import flag, instance, integer, not_negative, number, positive, text
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.report import EditReport
-from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out, settings_of
+from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out
 from assoc_hull.edit.session import Edit, join_edit, open_edit
 from assoc_hull.edit.write_lock import PATIENCE
 from assoc_hull.errors import UnknownNameError
@@ -266,7 +267,7 @@ class Hull:
         'anna'
         """
         outer = open_edit(self.document)
-        settings = settings_of(policy, gaps, None if outer is None else outer.settings)
+        settings = Settings.named(policy, gaps, None if outer is None else outer.settings)
         text(name, "the name", "in edit")
         if author is not None:
             text(author, "author", "in edit")
@@ -326,7 +327,7 @@ class Hull:
         from assoc_hull.edit.explain.preview import preview
 
         return preview(
-            self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps), name,
+            self.document, lambda edit: carry_out(edit, edits), Settings.named(policy, gaps), name,
             why, shapes=shapes, measure=measure,
         )  # fmt: skip
 
@@ -381,7 +382,7 @@ class Hull:
         """
         from assoc_hull.edit.drag import Drag
 
-        settings = settings_of(policy, gaps)
+        settings = Settings.named(policy, gaps)
         return Drag(self.document, point, how, radius, across_flats=across_flats, settings=settings)
 
     def shapes(self) -> Shapes:

@@ -59,6 +59,8 @@ class Index:
         For a definition, the points made of it.
     guess : (r, 2) int32
         In which segment of its two curves each crossing was last found; never relied upon.
+    generated : bool
+        Whether points of a curve come from definitions.
     """
 
     partners: dict[int, tuple[PlaneSet, ...]]
@@ -68,6 +70,7 @@ class Index:
     makes: dict[int, IntArray]
     forms: dict[int, IntArray]
     guess: np.typing.NDArray[np.int32]
+    generated: bool
 
 
 def index_columns(state: HullState) -> tuple[object, ...]:
@@ -96,8 +99,9 @@ def build_index(state: HullState) -> Index:
     drives, guess = _by_value(driver[driven], driven), np.zeros((rows.count, 2), np.int32)
     makes, forms = _generating(state)
     return Index(
-        _partners(state), drives, _riders(state), driven_levels(state), makes, forms, guess
-    )
+        _partners(state), drives, _riders(state), driven_levels(state), makes, forms, guess,
+        generated=bool(attached_curves(state)),
+    )  # fmt: skip
 
 
 def driven_levels(state: HullState) -> IntArray:

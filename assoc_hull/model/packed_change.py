@@ -1,9 +1,8 @@
 """What an edit changed, small: for a history that holds thousands of steps in memory.
 
 A change packs to a few kilobytes: of the bits only words that are not nil, byte by byte of all of
-them, so that those alike lie side by side, and all of it compressed. A journal of places, splines
-and meetings gives its change at any later time, as it holds what was written; that of other edits
-is to be taken right after the edit, by `assoc_hull.model.change.change_of`.
+them, so that those alike lie side by side and can be compressed. What runs of a program have
+changed their numbers tell; what other edits have, `assoc_hull.model.change.change_of`.
 
 Examples
 --------
@@ -27,7 +26,7 @@ from __future__ import annotations
 
 import math
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import cast
 
@@ -35,18 +34,18 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.curves import IntArray
-from assoc_hull.graph.journal import Journal, distinct
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.graph.journal import distinct, each_once
 from assoc_hull.model.change import (
     CrossingPositions,
     TableChange,
     crossing_positions,
     nothing_lies_elsewhere,
     positions_against,
-    row_bits,
-    table_columns,
 )
-from assoc_hull.model.tables import CurveIntersections, HullState
+from assoc_hull.model.program.run_program import ProgramRun, RunProgram
+from assoc_hull.model.program.structure import Values
+from assoc_hull.model.tables import HullState
 
 __all__ = ["PackedArrays", "PackedChange", "change_of_shape", "joined_shapes", "with_strays"]
 
@@ -60,27 +59,61 @@ _LEVEL = 1
 
 _WORD = 8
 
+_NOISE = 5
+"""So many of the lower bytes of a word are as good as random: to compress them is a waste."""
+
 
 @attrs.frozen(eq=False)
 class PackedArrays:
-    """Arrays in one piece of bytes, in the order in which they were given."""
+    """Arrays in two pieces of bytes: numbers and what else can be compressed, and noise."""
 
     _kinds: tuple[tuple[str, tuple[int, ...]], ...]
     _data: bytes
+    _noise: bytes
 
     @classmethod
     def of(cls, arrays: Sequence[_Array]) -> PackedArrays:
         """Pack arrays; integers of eight bytes must fit in four."""
-        pieces = [piece for each in arrays for piece in _pieces(each)]
-        kinds = tuple((each.dtype.str, each.shape) for each in arrays)
-        return cls(kinds, zlib.compress(b"".join(pieces), _LEVEL))
+        numbers, words, plain = list[bytes](), list[bytes](), list[bytes]()
+        for each in arrays:
+            where = plain if _in_words(each.dtype, each.shape) == 0 else words
+            (numbers if each.dtype == np.int64 else where).append(each.tobytes())
+        number = np.frombuffer(b"".join(numbers), np.int64).astype(np.int32)
+        word = np.frombuffer(b"".join(words), np.int64)
+        there = word != 0
+        planes = np.ascontiguousarray(word[there].view(np.uint8).reshape(-1, _WORD).T)
+        high = planes[_NOISE:].tobytes()
+        data = b"".join((number.tobytes(), np.packbits(there).tobytes(), high, *plain))
+        kinds = tuple([(each.dtype.str, each.shape) for each in arrays])
+        return cls(kinds, zlib.compress(data, _LEVEL), planes[:_NOISE].tobytes())
 
     def unpack(self) -> list[NDArray[np.generic]]:
         """Give the arrays."""
-        data, at, found = memoryview(zlib.decompress(self._data)), 0, list[_Array]()
-        for kind, shape in self._kinds:
-            array, at = _read(data, at, np.dtype(kind), shape)
-            found.append(array)
+        kinds = [(np.dtype(kind), shape) for kind, shape in self._kinds]
+        numbers = sum(math.prod(shape) for kind, shape in kinds if kind == np.int64)
+        words = sum(_in_words(kind, shape) for kind, shape in kinds)
+        data = memoryview(zlib.decompress(self._data))
+        number = np.frombuffer(data, np.int32, numbers).astype(np.int64)
+        begin = 4 * numbers
+        there = np.unpackbits(np.frombuffer(data[begin:], np.uint8, -(-words // 8)), count=words)
+        begin += -(-words // 8)
+        count = len(self._noise) // _NOISE
+        stop = begin + (_WORD - _NOISE) * count
+        planes = np.frombuffer(self._noise + data[begin:stop], np.uint8).reshape(_WORD, count)
+        word = np.zeros(words, np.int64)
+        word[there.view(np.bool_)] = np.ascontiguousarray(planes.T).view(np.int64)[:, 0]
+        found, a, b = list[_Array](), 0, 0
+        for kind, shape in kinds:
+            size = math.prod(shape)
+            if kind == np.int64:
+                found.append(number[a : a + size].reshape(shape))
+                a += size
+            elif size := _in_words(kind, shape):
+                found.append(word[b : b + size].view(kind).reshape(shape))
+                b += size
+            else:
+                found.append(np.frombuffer(data[stop:], kind, math.prod(shape)).reshape(shape))
+                stop += kind.itemsize * math.prod(shape)
         return found
 
 
@@ -88,39 +121,6 @@ def _in_words(kind: np.dtype[np.generic], shape: tuple[int, ...]) -> int:
     """Give as how many words an array is packed; 0 if it is not."""
     size = kind.itemsize * math.prod(shape)
     return size // _WORD if kind.kind in "uf" and size % _WORD == 0 else 0
-
-
-def _pieces(array: _Array) -> Iterator[bytes]:
-    if array.dtype == np.int64:
-        yield array.astype(np.int32).tobytes()
-    elif _in_words(array.dtype, array.shape):
-        words = np.frombuffer(array.tobytes(), np.int64)
-        there = words != 0
-        yield np.packbits(there).tobytes()
-        yield words[there].view(np.uint8).reshape(-1, _WORD).T.tobytes()
-    else:
-        yield array.tobytes()
-
-
-def _read(
-    data: memoryview, at: int, kind: np.dtype[np.generic], shape: tuple[int, ...]
-) -> tuple[_Array, int]:
-    """Give an array that begins at a byte, and the byte behind it."""
-    size = math.prod(shape)
-    if kind == np.int64:
-        stop = at + 4 * size
-        return np.frombuffer(data[at:stop], np.int32).astype(np.int64).reshape(shape), stop
-    count = _in_words(kind, shape)
-    if not count:
-        stop = at + kind.itemsize * size
-        return np.frombuffer(data[at:stop], kind).reshape(shape), stop
-    begin = at + -(-count // 8)
-    there = np.unpackbits(np.frombuffer(data[at:begin], np.uint8), count=count).view(np.bool_)
-    stop = begin + _WORD * int(np.count_nonzero(there))
-    shuffled = np.frombuffer(data[begin:stop], np.uint8).reshape(_WORD, -1)
-    words = np.zeros(count, np.int64)
-    words[there] = np.ascontiguousarray(shuffled.T).view(np.int64)[:, 0]
-    return words.view(kind).reshape(shape), stop
 
 
 # --------------------------------------------------------------------------------------
@@ -197,28 +197,34 @@ def _rows_and_bits(rows: _Array, bits: _Array) -> tuple[IntArray, NDArray[np.uin
     return cast("IntArray", rows), cast("NDArray[np.uint8]", bits)
 
 
-def change_of_shape(state: HullState, journal: Journal) -> TableChange:
-    """Give the net effect of a journal, at any later time.
+def change_of_shape(
+    runner: RunProgram, before: Values, after: Values, runs: Sequence[ProgramRun], ridden: IntArray
+) -> TableChange:
+    """Give the net effect of runs that took the numbers of a net from some to others.
 
-    It has written places of points, gaps, and splines and meetings of curves, no more; and where
-    points lie on curves as their meetings say, which therefore tell it.
+    `ridden` (k,) are points that ride from elsewhere than before. Where points lie on curves their
+    meetings tell.
     """
-    written: dict[int, tuple[list[IntArray], list[NDArray[np.uint8]]]] = {}
-    for column, rows, old, new in journal.array_writes():
-        places, bits = written.setdefault(id(column), ([], []))
-        places.append(rows)
-        bits.append(row_bits(old) ^ row_bits(new))
-    net = {
-        name: _taken_together(*written[id(column)])
-        for name, column in table_columns(state) if id(column) in written
-    }  # fmt: skip
-    met = journal.first_and_last(state.curves.meets)
+    program = runner.program
+    local = each_once([each.curves for each in runs])
+    curves = program.number.take(local)
+    order = np.argsort(curves)
+    lofted, local = curves.take(order), local.take(order)
+    watched = each_once([each.watched for each in runs])
+    crossings = program.watch.take(watched)
+    rows = distinct(np.concatenate([crossings, *(each.rows for each in runs)]))
+    found = runner.compare(after, before, rows, watched, local)
+    bits = {
+        "rows.xyz": (found.rows, found.xyz.view(np.uint8)),
+        "rows.gap": (program.watch.take(found.watched), found.gap.view(np.uint8)),
+        "rows.anchor_from": _differing(before.anchor_from, after.anchor_from, ridden),
+        "rows.base": _differing(before.base, after.base, ridden),
+    }
     return attrs.evolve(
         _NOTHING,
-        bits={name: found for name, found in net.items() if len(found[0])},
-        met=_apart(met.rows, met.old, met.new),
-        lofted=journal.first_and_last(state.curves.spline).rows,
-    )
+        bits={name: each for name, each in bits.items() if len(each[0])},
+        met=(program.number.take(found.curves), found.met.view(np.uint8)), lofted=lofted,
+    )  # fmt: skip
 
 
 def joined_shapes(state: HullState, changes: Iterable[TableChange]) -> TableChange:
@@ -226,14 +232,14 @@ def joined_shapes(state: HullState, changes: Iterable[TableChange]) -> TableChan
 
     An exclusive or runs both ways and in any order, so that the curves need be lofted but once.
     """
-    bits: dict[str, tuple[list[IntArray], list[NDArray[np.uint8]]]] = {}
+    bits: dict[str, tuple[list[IntArray], list[_Words]]] = {}
     met, moved = _ByCurve(partial(_meetings, state)), _ByCurve(partial(_places, state))
     lofted = [np.zeros(0, np.int64)]
     for change in changes:
         for name, (rows, bit) in change.bits.items():
             every = bits.setdefault(name, ([], []))
             every[0].append(rows)
-            every[1].append(bit)
+            every[1].append(_words(bit))
         met.join(*change.met)
         moved.join(*change.moved)
         lofted.append(change.lofted)
@@ -282,38 +288,39 @@ class _ByCurve:
         return np.array(curves, np.int64), np.concatenate(every)
 
 
+_Words = NDArray[np.int64]
+
+
+def _words(values: _Array) -> _Words:
+    """Give the bits of each row as words, (k, words)."""
+    width = values.itemsize * math.prod(values.shape[1:]) // _WORD
+    return np.ascontiguousarray(values).view(np.int64).reshape(len(values), width)
+
+
 def _taken_together(
-    rows: Sequence[IntArray], bits: Sequence[NDArray[np.uint8]]
+    rows: Sequence[IntArray], bits: Sequence[_Words]
 ) -> tuple[IntArray, NDArray[np.uint8]]:
-    """Join what several writes changed, (k, bytes): the rows that differ in the end, ascending."""
+    """Join what several writes changed: the rows that differ in the end, ascending, and bytes."""
     row, bit = np.concatenate(rows), np.concatenate(bits)
-    order = np.argsort(row, kind="stable")
-    row, bit = row[order], bit[order]
-    first = np.flatnonzero(np.diff(row, prepend=-1))
-    if len(first) < len(row):
-        row, bit = row[first], np.bitwise_xor.reduceat(bit, first, axis=0)
+    if not (row[1:] > row[:-1]).all():
+        order = np.argsort(row, kind="stable")
+        row, bit = row[order], bit[order]
+        first = np.flatnonzero(np.concatenate([[True], row[1:] != row[:-1]]))
+        if len(first) < len(row):
+            row, bit = row[first], np.bitwise_xor.reduceat(bit, first, axis=0)
     odd = bit.any(axis=1)
-    return row[odd], bit[odd]
+    return row[odd], bit[odd].view(np.uint8)
 
 
-def _apart(
-    curves: IntArray, old: Sequence[CurveIntersections], new: Sequence[CurveIntersections]
+def _differing(
+    before: FloatArray, after: FloatArray, rows: IntArray
 ) -> tuple[IntArray, NDArray[np.uint8]]:
-    """Compare meetings of curves; curves with the very same ones are left out."""
-    if not len(curves):
-        return nothing_lies_elsewhere()
-    counts = [len(each.line) for each in new]
-    bits = np.empty((sum(counts), 4), np.int64)
-    for part, name in ((slice(1), "parameter"), (slice(1, 4), "xyz")):
-        were, are = (
-            np.concatenate([getattr(each, name).ravel() for each in every]).view(np.int64)
-            for every in (old, new)
-        )
-        bits[:, part] = (were ^ are).reshape(len(bits), -1)
-    owner: IntArray = np.repeat(np.arange(len(counts)), counts)
-    moved = np.zeros(len(counts), np.bool_)
-    moved[owner[bits.any(axis=1)]] = True
-    return curves[moved], bits[moved[owner]].view(np.uint8)
+    """Compare rows of two arrays: those that differ, and the bits."""
+    if not len(rows):
+        return rows, np.zeros((0, 0), np.uint8)
+    bits = _words(before.take(rows, axis=0)) ^ _words(after.take(rows, axis=0))
+    odd = bits.any(axis=1)
+    return rows[odd], bits[odd].view(np.uint8)
 
 
 def with_strays(state: HullState, change: TableChange) -> TableChange:

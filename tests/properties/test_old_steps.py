@@ -31,7 +31,9 @@ from assoc_hull.edit import past_states, program_edit
 from assoc_hull.edit.past_states import PackedWrites
 from assoc_hull.edit.step import Step, StepBody
 from assoc_hull.graph import gate
+from assoc_hull.graph.journal import Journal
 from assoc_hull.model import change as changes
+from assoc_hull.model.packed_change import with_strays
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 from tests.properties.test_program_edits import Count, by_program, content
 
@@ -107,6 +109,34 @@ def test_old_steps_run_and_tell_as_new_ones(number: int, edits: list[Task], back
         hull.redo(count) if count else None
     assert tables(one) == tables(other)
     assert one.verify() == ()
+
+
+@settings(max_examples=12, deadline=None)
+@given(number=st.integers(0, POOL - 1), edits=tasks(SHAPES))
+def test_what_the_numbers_tell_of_an_edit_is_what_was_written(
+    number: int, edits: list[Task]
+) -> None:
+    """The change that runs of the program give is the one that its writes to the tables give."""
+    hull = fresh(number)
+    with old_after(NEVER):
+        for each in edits:
+            count = len(hull.history)
+            carry_out(hull, each)
+            if len(hull.history) == count:
+                continue
+            step, tables = hull.document.history[-1], hull.document.state
+            assert step.change is not None
+            assert isinstance(step.journal, Journal)
+            found = with_strays(tables, step.change)
+            expected = changes.change_of(tables, step.journal)
+            assert list(found.bits) == list(expected.bits)
+            for mine, written in zip(
+                [*found.bits.values(), found.moved, found.met],
+                [*expected.bits.values(), expected.moved, expected.met], strict=True,
+            ):  # fmt: skip
+                assert mine[0].tolist() == written[0].tolist()
+                assert mine[1].tobytes() == written[1].tobytes()
+            assert found.lofted.tolist() == expected.lofted.tolist()
 
 
 @settings(max_examples=6, deadline=None)

@@ -194,6 +194,14 @@ def test_compiled_and_numpy_give_the_same_bits_and_doubts(name: str, shipped: Sh
             same_numbers(*numbers)
             for part in ("curves", "rows", "watched"):
                 assert getattr(one, part).tolist() == getattr(other, part).tolist()
+            watched, curves = one.watched[::2], rng.permutation(one.curves)
+            told = [
+                attrs.astuple(runner.compare(values, before, one.rows, watched, curves))
+                for runner, values in zip(runners, numbers, strict=True)
+            ]
+            assert told[0][0].tolist() == one.rows.tolist()
+            for mine, others in zip(*told, strict=True):
+                assert (mine.dtype, mine.tolist()) == (others.dtype, others.tolist())
         for runner, values, run in zip(runners, numbers, runs, strict=True):
             runner.restore(values, before, run)
             same_numbers(values, before)

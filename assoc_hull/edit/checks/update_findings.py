@@ -14,7 +14,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.graph.derived import Objects
-from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.journal import Journal, distinct
 from assoc_hull.model.address import address
 from assoc_hull.model.align_intersections import Alignment
 from assoc_hull.model.gaps import gap_at, watched_on
@@ -169,13 +169,24 @@ def find_unmet(state: HullState, curves: IntArray) -> tuple[str, ...]:
     for side in (0, 1):
         owner = table.curve.data[rows, side]
         held = table.contact.data[rows] if side else _held_at_contact(state, rows)
-        for row, curve in zip(rows[~held].tolist(), owner[~held].tolist(), strict=True):
-            if not (state.curves.meets.data[curve].row == row).any():
-                findings.append(
-                    f"{address(state, row)} is not reached by {curve_title(state, curve)}: "
-                    "choose another place for the line"
-                )
+        lacks = ~held
+        lacks[lacks] = ~_is_met(state, rows[lacks], owner[lacks])
+        findings += [
+            f"{address(state, row)} is not reached by {curve_title(state, curve)}: "
+            "choose another place for the line"
+            for row, curve in zip(rows[lacks].tolist(), owner[lacks].tolist(), strict=True)
+        ]
     return tuple(findings)
+
+
+def _is_met(state: HullState, rows: IntArray, on: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell which crossings (k,) are meetings of the curves (k,)."""
+    curves = distinct(on)
+    met = [state.curves.meets.data[curve].row for curve in curves.tolist()]
+    owner = np.repeat(curves, np.array([len(each) for each in met], np.int64))
+    row = np.concatenate([rows[:0], *met])
+    known = (owner * state.rows.count + row)[row >= 0]  # a latent meeting (-1) is no crossing
+    return np.isin(on * state.rows.count + rows, known)
 
 
 def measure_gaps(

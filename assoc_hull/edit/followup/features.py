@@ -316,7 +316,9 @@ def followed_feature(
         rows = _between_ends(state, feature, lines, places or {})
     if rows is None or len(rows) < FEATURE_LEAST[feature.kind]:
         return None
-    return feature_in_plane(state, attrs.evolve(feature, points=rows.tolist()), lines[0])
+    points = tuple(rows.tolist())
+    as_now = feature if points == feature.points else attrs.evolve(feature, points=points)
+    return feature_in_plane(state, as_now, lines[0])
 
 
 def _between_ends(

@@ -201,22 +201,24 @@ def checked_in_planes(
         A place is farther off a plane than `IN_PLANE`.
     """
     out = np.array(xyz, np.float64)
-    planar = [line for line in lines if state.lines.planar.data[line]]
-    for line in sorted(planar, key=lambda each: max(state.lines.normal.data[each].tolist())):
-        normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
-        # Column by column, which of one place are plain numbers.
-        x, y, z = (out[..., axis] * normal[axis] for axis in range(3))
+    table = state.lines
+    normals = {line: table.normal.data[line].tolist() for line in lines if table.planar.data[line]}
+    for line, normal in sorted(normals.items(), key=lambda each: max(each[1])):
+        offset = float(table.offset.data[line])
+        # Column by column; one place is plain numbers, which are the quickest.
+        columns = out.tolist() if out.ndim == 1 else [out[..., axis] for axis in range(3)]
+        x, y, z = (column * along for column, along in zip(columns, normal, strict=True))
         away = x + y + z - offset
-        most = abs(float(away)) if out.ndim == 1 else float(np.abs(away).max())
+        most = abs(away) if out.ndim == 1 else float(np.abs(away).max())
         if most > IN_PLANE:
             name = state.lines.name[line]
             what = f"the place lies {most:.3g} m off the plane of {name}"
             told = where if isinstance(where, str) else where()
             raise BadInputError(what, told, "give a place in that plane")
-        if 1.0 in normal.tolist():
-            out[..., normal == 1.0] = offset
+        if 1.0 in normal:
+            out[..., normal.index(1.0)] = offset
         elif most > _ROUNDED:
-            out -= np.asarray(away)[..., None] * normal
+            out -= np.asarray(away)[..., None] * np.array(normal)
     return out
 
 

@@ -122,12 +122,13 @@ def curves_to_hold(state: HullState, row: int) -> list[tuple[int, FloatArray]]:
     if state.rows.sort[row] != Sort.CROSSING:
         return found
     for side, curve in enumerate(state.rows.curve[row].tolist()):
-        carries = state.rows.role[row] == Role.WATCHED or state.rows.driver[row] == curve
+        if state.rows.role[row] != Role.WATCHED and state.rows.driver[row] != curve:
+            continue
         place = state.rows.spot[row, side].copy()
         rows: IntArray = state.curves.rows[curve]
         step = state.rows.xyz[rows] - place
         near = float(np.sqrt((step * step).sum(axis=1)).min())
-        if carries and near >= state.tolerances.factor * _NEAR:
+        if near >= state.tolerances.factor * _NEAR:
             found.append((curve, place))
     return found
 

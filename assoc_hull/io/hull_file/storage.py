@@ -92,6 +92,7 @@ from assoc_hull.io.open_databases import (
 from assoc_hull.model.change import TableChange, change_of, with_signed_zeros
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.definition.hash_tree import HashTree, is_root
+from assoc_hull.model.packed_change import with_strays
 from assoc_hull.model.tables import HullState, copy_into, copy_state
 
 __all__ = ["Behind", "HullFile", "LateInflections"]
@@ -442,7 +443,8 @@ class HullFile:
         """Write a step and what it changed, and bring it to the disk."""
         journal = step.journal
         assert isinstance(journal, Journal), "a step that was just made holds its journal"
-        change = change_of(self.state, journal)
+        known = step.change
+        change = change_of(self.state, journal) if known is None else with_strays(self.state, known)
         with database_errors(self.path):
             self.place.require_own()
             self._behind.add(change, step.rows, step.curves)
@@ -463,6 +465,7 @@ class HullFile:
         self._lend(step)
         rerun = Rerun(self.state, change)
         step.replace(StepBody(rerun, body.cause, body.changed, body.moved, body.seeds, body.report))
+        step.change = None
 
     def _lend(self, step: Step) -> None:
         """Let a step read from the file what it does not hold."""

@@ -28,7 +28,7 @@ from assoc_hull.geometry.splines.compiled_intersections import (
 from assoc_hull.geometry.splines.compiled_loft import loft_curves
 from assoc_hull.geometry.splines.loft_rules import LEAST_COSINE, NO_DIRECTION
 from assoc_hull.geometry.splines.plane_heights import CONTACT
-from assoc_hull.model.program.run_program import Doubt, ProgramRun, begins
+from assoc_hull.model.program.run_program import Doubt, NetEffect, ProgramRun, begins
 from assoc_hull.model.program.structure import CompiledFeatures, Program, Values
 from assoc_hull.tolerance import Tolerances
 
@@ -663,7 +663,51 @@ def gather(
         odd[i] = 1 if differs else 0
 
 
+@jit
+def compare(
+    meet_start: IntArray, rows: IntArray, watched: IntArray, curves: IntArray, xyz: IntArray,
+    gap: IntArray, at: IntArray, place: IntArray, xyz_0: IntArray, gap_0: IntArray,
+    at_0: IntArray, place_0: IntArray, row: IntArray, row_bits: IntArray, crossing: IntArray,
+    crossing_bits: IntArray, curve: IntArray, curve_bits: IntArray, told: IntArray,
+) -> None:  # fmt: skip
+    """Put what differs in front, with the exclusive or of the bits; `told` becomes how many.
+
+    That is: of points, of crossings, of curves and of their meetings.
+    """
+    count = 0
+    for r in rows:
+        some = 0
+        for k in range(3):
+            row_bits[count, k] = xyz[r, k] ^ xyz_0[r, k]
+            some |= row_bits[count, k]
+        if some != 0:
+            row[count] = r
+            count += 1
+    told[0], count = count, 0
+    for w in watched:
+        if gap[w] != gap_0[w]:
+            crossing[count], crossing_bits[count, 0] = w, gap[w] ^ gap_0[w]
+            count += 1
+    told[1], count, meetings = count, 0, 0
+    for c in curves:
+        some, first = 0, meetings
+        for m in range(meet_start[c], meet_start[c + 1]):
+            curve_bits[meetings, 0] = at[m] ^ at_0[m]
+            some |= curve_bits[meetings, 0]
+            for k in range(3):
+                curve_bits[meetings, 1 + k] = place[m, k] ^ place_0[m, k]
+                some |= curve_bits[meetings, 1 + k]
+            meetings += 1
+        if some != 0:
+            curve[count] = c
+            count += 1
+        else:
+            meetings = first
+    told[2], told[3] = count, meetings
+
+
 _run: Callable[..., None] = run
+_compare: Callable[..., None] = compare
 _restore: Callable[..., None] = restore
 _gather: Callable[..., None] = gather
 """They are called with the arrays of a program, in the order above."""
@@ -746,6 +790,29 @@ class CompiledProgram:
         batch = SplineBatch(begin, knots, blocks[:3].T, blocks[3:6].T, blocks[6:].T)
         return batch, odd.view(np.bool_)
 
+    def compare(
+        self, values: Values, before: Values, rows: IntArray, watched: IntArray, curves: IntArray
+    ) -> NetEffect:
+        """Tell what differs from before: as `NumpyProgram.compare`."""
+        start = self.program.meet_start
+        meetings = int((start.take(curves + 1) - start.take(curves)).sum())
+        k, w, c, told = len(rows), len(watched), len(curves), np.empty(4, np.int64)
+        row, crossing, curve = np.empty(k, np.int64), np.empty(w, np.int64), np.empty(c, np.int64)
+        xyz, gap, met = (
+            np.empty((k, 3), np.int64), np.empty((w, 1), np.int64),
+            np.empty((meetings, 4), np.int64),
+        )  # fmt: skip
+        bits = [
+            read_only(each.view(np.int64)) for of in (values, before)
+            for each in (of.xyz, of.gap, of.at, of.place)
+        ]  # fmt: skip
+        _compare(
+            start, read_only(rows), read_only(watched), read_only(curves), *bits, row, xyz,
+            crossing, gap, curve, met, told,
+        )  # fmt: skip
+        k, w, c, meetings = told.tolist()
+        return NetEffect(row[:k], xyz[:k], crossing[:w], gap[:w], curve[:c], met[:meetings])
+
 
 def _columns(values: Values) -> tuple[NDArray[np.generic], ...]:
     return (
@@ -788,7 +855,8 @@ def warm() -> bool:
     compiled = CompiledProgram(program)
     compiled.restore(values, values.copy(), compiled.run(values, values.copy(), none, none))
     compiled.splines(values, values, none)
-    return was_loaded(run) and was_loaded(restore) and was_loaded(gather)
+    compiled.compare(values, values, none, none, none)
+    return all([was_loaded(each) for each in (run, restore, gather, compare)])
 
 
 def _blank(name: str, kind: str) -> object:

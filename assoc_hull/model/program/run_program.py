@@ -32,6 +32,7 @@ from assoc_hull.tolerance import Tolerances
 
 __all__ = [
     "Doubt",
+    "NetEffect",
     "NumpyProgram",
     "ProgramRun",
     "RunProgram",
@@ -99,8 +100,35 @@ class ProgramRun:
         return self.doubt in (Doubt.NONE, Doubt.FEATURE)
 
 
+@attrs.frozen(eq=False)
+class NetEffect:
+    """What tells two sets of numbers of one net apart, to the bit.
+
+    Attributes
+    ----------
+    rows, xyz : (k,) int, (k, 3) int
+        Points that lie elsewhere, ascending, and the exclusive or of the bits of their coordinates.
+    watched, gap : (w,) int, (w, 1) int
+        The same of gaps of watched crossings.
+    curves, met : (c,) int, (q, 4) int
+        The same of curves whose meetings lie elsewhere: chord parameters and places, curve by
+        curve.
+    """
+
+    rows: IntArray
+    xyz: IntArray
+    watched: IntArray
+    gap: IntArray
+    curves: IntArray
+    met: IntArray
+
+
 class RunProgram(Protocol):
     """A program with the arithmetic that runs it; for one thread at a time."""
+
+    @property
+    def program(self) -> Program:
+        """The structure."""
 
     def run(
         self, values: Values, before: Values, rows: IntArray, held: IntArray,
@@ -118,6 +146,11 @@ class RunProgram(Protocol):
 
         That is: in a point or a slope behind one; zeros of two signs are equal. There is a curve.
         """
+
+    def compare(
+        self, values: Values, before: Values, rows: IntArray, watched: IntArray, curves: IntArray
+    ) -> NetEffect:
+        """Tell which of these points, crossings and curves, in their order, differ from before."""
 
 
 @attrs.frozen(eq=False)
@@ -158,6 +191,31 @@ class NumpyProgram:
         knot = np.concatenate([values.knot[a:b] for a, b in bounds])
         odd = np.logical_or.reduceat((block[:6] != old[:6]).any(axis=0), begin[:-1])
         return SplineBatch(begin, knot, block[:3].T, block[3:6].T, block[6:].T), odd
+
+    def compare(
+        self, values: Values, before: Values, rows: IntArray, watched: IntArray, curves: IntArray
+    ) -> NetEffect:
+        """Tell what differs from before."""
+        begin = begins(self.program.meet_start, curves)
+        where, size = spans(self.program.meet_start, curves), np.diff(begin)
+        xyz = _apart(before.xyz, values.xyz, rows)
+        gap = _apart(before.gap, values.gap, watched)
+        met = np.concatenate(
+            [_apart(before.at, values.at, where), _apart(before.place, values.place, where)], axis=1
+        )
+        count = np.zeros(len(curves), np.int64)
+        np.add.at(count, np.repeat(np.arange(len(curves)), size), met.any(axis=1))
+        moved, elsewhere, wider = count > 0, xyz.any(axis=1), gap.any(axis=1)
+        return NetEffect(
+            rows[elsewhere], xyz[elsewhere], watched[wider], gap[wider], curves[moved],
+            met[np.repeat(moved, size)],
+        )  # fmt: skip
+
+
+def _apart(old: FloatArray, new: FloatArray, items: IntArray) -> IntArray:
+    """Give the exclusive or of the bits of items of two arrays, (k, numbers of an item)."""
+    bits = old[items].view(np.int64) ^ new[items].view(np.int64)
+    return bits if old.ndim > 1 else bits[:, None]
 
 
 def differs(old: FloatArray, new: FloatArray) -> NDArray[np.bool_]:
