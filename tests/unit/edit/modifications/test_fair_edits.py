@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -50,7 +50,7 @@ def _goals(hull: Hull, name: str) -> FloatArray:
     """Give point A, 20 mm above the crossing with ST 0, and B, 25 mm above the line at 2.2 m."""
     state, curve = hull.document.state, hull.lines[name].curves[0]
     met = intersect_planes(state.spline(curve.number), np.array([1.0, 0, 0]), np.array([2.2]))
-    first = np.array(hull.find(f"{name} x ST 0").position)
+    first = np.array(hull.points[f"{name} x ST 0"].position)
     first[2] += 0.02
     return np.stack([first, met.xyz[0] + [0.0, 0.0, 0.025]])
 
@@ -88,7 +88,7 @@ def test_buttocks_are_led_without_a_new_sign_change(carrier: Hull, order: tuple[
 def test_the_order_of_requests_changes_no_place(carrier: Hull) -> None:
     """Two pulls and a re-shape give the same bits in any order."""
     goals = _goals(carrier, "BTK 1")
-    asked = [
+    asked: list[Callable[[Edit], None]] = [
         lambda edit: _lead(edit, carrier, "BTK 1", goals),
         lambda edit: edit.pull("WL 9 x ST 17", 0.02, fair=True),
         lambda edit: edit.pull("WL 11 x ST 3", -0.01, fair=True),
