@@ -35,8 +35,8 @@ from assoc_hull.variation.features.redrawn_circles import (
     tangent_point,
 )
 from assoc_hull.variation.fields.bounded_functions import BlendChain
-from assoc_hull.variation.fields.field import FieldRegion
-from assoc_hull.variation.fields.layers import Layer
+from assoc_hull.variation.fields.field import FieldRegion, StackedField
+from assoc_hull.variation.fields.layers import FieldLayer, Layer
 from assoc_hull.variation.fields.space_map import SlopedMap, VariationMap
 
 if TYPE_CHECKING:
@@ -161,7 +161,9 @@ def redraw_features(
         for each in features
         if each.key in wanted or not _stretched(each, quick)
     }
-    some = [each for each in changed_circles(list(drawn.values())) if not _even(each, quick)]
+    plain = _straight_across(vmap.layers)
+    changed = changed_circles(list(drawn.values()))
+    some = [each for each in changed if not _even(each, quick, plain=plain)]
     chosen = [each for each in features if drawn.get(each.key) in some]
     bilges = bilge_map(state, quick)
     return RedrawnFeatures(
@@ -200,16 +202,27 @@ def _one_cylinder(one: Feature, other: Feature) -> bool:
     return not (away - float((away * normal).sum()) * normal).any()
 
 
-def _even(circle: RedrawnCircle, vmap: SlopedMap) -> bool:
+def _straight_across(layers: Sequence[Layer]) -> bool:
+    """Tell whether what layers do across the ship is linear: two breadths tell of all others."""
+    return all(
+        isinstance(layer, FieldLayer)
+        and all(not isinstance(each, StackedField) or each.tube is None for each in layer.fields)
+        for layer in layers
+    )
+
+
+def _even(circle: RedrawnCircle, vmap: SlopedMap, *, plain: bool = False) -> bool:
     """Tell whether a circle is carried by a map that is affine in all its neighbourhood.
 
     Its curve is then the curve of before, scaled, as are those that meet it: put onto the circle
-    to the bit, points would leave the planes of their lines.
+    to the bit, points would leave the planes of their lines. Of a map that is `plain` across the
+    ship less has to be looked at.
     """
     if not circle.carried:
         return False
     reach = (JOIN + 1.0) * circle.before.radius * np.linspace(-1.0, 1.0, 15)
-    grid = np.stack(np.meshgrid(reach, reach, reach, indexing="ij"), axis=-1).reshape(-1, 3)
+    out = reach[[0, -1]] if plain else reach
+    grid = np.stack(np.meshgrid(reach, out, reach, indexing="ij"), axis=-1).reshape(-1, 3)
     grid = circle.before.centre + grid
     # most maps that are not affine tell so at a few of these places already
     return all(
