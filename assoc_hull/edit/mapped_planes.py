@@ -111,6 +111,7 @@ def carry_planes(
     offset[apart] = [asked[line] for line in apart]
     going = [line for line in flat if (follow or line in drive) and line not in apart]
     samples = PlaneSamples.of(state, going) if samples is None else samples.some(going)
+    samples = samples.moving(space, normal, offset)
     after, heights = samples.mapped(space, normal)
     even, told = heights.even()
     offset[samples.number[even]] = told[even]
@@ -169,6 +170,7 @@ class PlaneSamples:
     lines: tuple[int, ...]
     start: tuple[int, ...]
     before: FloatArray
+    _some: dict[tuple[int, ...], PlaneSamples] = attrs.field(factory=dict, init=False, repr=False)
 
     @classmethod
     def of(cls, state: HullState, lines: Sequence[int]) -> PlaneSamples:
@@ -185,6 +187,14 @@ class PlaneSamples:
         """Give those of some of its lines."""
         if self.lines == tuple(lines):
             return self
+        found = self._some.get(tuple(lines))
+        if found is None:
+            found = self._chosen(lines)
+            self._some.clear()
+            self._some[tuple(lines)] = found
+        return found
+
+    def _chosen(self, lines: Sequence[int]) -> PlaneSamples:
         at = {line: i for i, line in enumerate(self.lines)}
         spans = [(self.start[at[line]], self.start[at[line] + 1]) for line in lines]
         parts = [self.before[begin:end] for begin, end in spans]
@@ -209,6 +219,25 @@ class PlaneSamples:
         after = space.places(self.before) if self.lines else self.before
         level = plane_heights(after, normal[self._owner])
         return after, LineHeights(level, np.array(self.start[:-1], np.int64))
+
+    @cached_property
+    def _levels(self) -> tuple[tuple[BoolArray, FloatArray], ...]:
+        """Of which lines each coordinate of all places is one, to the bit, and which it is."""
+        start = np.array(self.start[:-1], np.int64)
+        return tuple(LineHeights(level, start).even() for level in self.before.T)
+
+    def moving(self, space: SpaceMap, normal: FloatArray, offset: FloatArray) -> PlaneSamples:
+        """Give those of lines whose planes may move: not across an axis along which nothing moves.
+
+        `normal` (l, 3) and `offset` (l,), m, are of all lines of the tables.
+        """
+        if all(space.moves) or not self.lines:
+            return self
+        across, still = normal[self.number] == 1.0, np.zeros(len(self.lines), bool)
+        for axis in np.flatnonzero(~np.array(space.moves)).tolist():
+            even, level = self._levels[axis]
+            still |= across[:, axis] & even & (level == offset[self.number])
+        return self.some([line for line, stays in zip(self.lines, still, strict=True) if not stays])
 
 
 @attrs.frozen(eq=False)

@@ -19,7 +19,7 @@ from assoc_hull.variation.carrying.admissible_values import AdmissibleValues, re
 from assoc_hull.variation.carrying.carry_hull import resized_particulars
 from assoc_hull.variation.carrying.driving_lines import choose_drivers, section_planes
 from assoc_hull.variation.certificate.fold_check import Certificate
-from assoc_hull.variation.features.redrawn_features import RedrawnFeatures, redraw_features
+from assoc_hull.variation.features.redrawn_features import HullFeatures, RedrawnFeatures, redraw_features
 from assoc_hull.variation.fields.layers import Layer
 from assoc_hull.variation.fields.space_map import SlopedMap, VariationMap
 from assoc_hull.variation.parameters.catalogue import Freedom
@@ -91,6 +91,11 @@ class HullMaps:
         """The tables of the parent."""
         return self.room.state
 
+    @cached_property
+    def _had(self) -> HullFeatures:
+        """The circles and bilges of the parent."""
+        return HullFeatures.of(self.state)
+
     def still(self, amplitudes: FloatArray) -> bool:
         """Tell whether the map is that which moves nothing."""
         return not (self.aim or self.ask.layers or np.any(amplitudes))
@@ -155,7 +160,7 @@ class HullMaps:
     def driving(self, amplitudes: FloatArray) -> tuple[IntArray, bool]:
         """Give the lines that drive under a map, and whether planes of followers go along."""
         state, ask, vmap = self.state, self.ask, self.map(amplitudes)
-        anew = redraw_features(state, vmap, self._radii(amplitudes))
+        anew = redraw_features(state, vmap, self._radii(amplitudes), self._had)
         given = None if ask.drivers is None else GivenObjects(state).driving(ask.drivers)
         kept = choose_drivers(
             state, anew.space, given, ask.stations,
@@ -169,7 +174,9 @@ class HullMaps:
 
     def places(self, amplitudes: FloatArray, source: FloatArray) -> FloatArray:
         """Give where a map sends places (n, 3) of the parent, m, circles drawn anew."""
-        anew = redraw_features(self.state, self.map(amplitudes), self._radii(amplitudes))
+        anew = redraw_features(
+            self.state, self.map(amplitudes), self._radii(amplitudes), self._had
+        )
         return anew.quick(source)
 
     def laid(
@@ -192,7 +199,7 @@ class HullMaps:
         """
         state, asked = self.state, self.values(amplitudes)
         vmap = self.map(amplitudes) if vmap is None else vmap
-        anew = redraw_features(state, vmap, self._radii(amplitudes))
+        anew = redraw_features(state, vmap, self._radii(amplitudes), self._had)
         space = anew.space
         levels = section_planes(state, vmap.layers) if self.ask.stations == "number" else None
         planes = carry_planes(state, space, lines, follow=follow, levels=levels, samples=samples)

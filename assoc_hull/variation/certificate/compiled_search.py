@@ -1,8 +1,7 @@
 """The search for the least of a polynomial on boxes, compiled: what `find_least_minor` does.
 
-Importing this module imports numba. Boxes are taken in the same order, round by round; coefficients
-of halves come from means of neighbours (de Casteljau), in numpy from a matrix; so that bounds
-differ by rounding. The least value is in the end the minor's own at the place that was found.
+Importing this module imports numba. Boxes are taken in the same order, round by round, and with the
+same arithmetic, so that what is found has the same bits.
 
 Examples
 --------
