@@ -297,4 +297,5 @@ def test_nothing_is_compiled_twice() -> None:
     for xyz in (np.ones((4, 3)), frozen, np.ones((3, 4)).T, np.ones((8, 6))[::2, ::2]):
         quick(xyz)
         quick.jacobian(xyz)
+        assert not quick.displacement_slopes(xyz).any()
     assert {len(getattr(each, "signatures", ())) for each in kernels()} == {1}

@@ -23,9 +23,11 @@ from assoc_hull.variation.fields.compiled_layers import (
     blend_slope,
     clipped,
     map_layers,
+    set_displacement_slopes,
     set_slopes,
     set_values,
 )
+from assoc_hull.variation.fields.layers import FieldLayer
 
 __all__ = ["CompiledMap", "kernels", "warm"]
 
@@ -503,6 +505,13 @@ class CompiledMap:
     def _numbers(self) -> tuple[IntArray, FloatArray]:
         return self.flat.code, self.flat.number
 
+    def displacement_slopes(self, xyz: FloatArray) -> FloatArray:
+        """Give the derivatives of what the first layer adds to places (n, 3), as (n, 3, 3)."""
+        at = _plain(xyz)
+        found = np.empty((*at.shape, 3))
+        set_displacement_slopes(*self._numbers, at, found)
+        return found
+
     def _images(self, at: FloatArray) -> FloatArray:
         """Give where the layers take places."""
         found = np.empty(at.shape)
@@ -551,6 +560,9 @@ def warm() -> bool:
     at = np.zeros((0, 3))
     every(at)
     every.jacobian(at)
+    line = FlatMap.of((FieldLayer("none", ()),))
+    assert line is not None
+    CompiledMap(line).displacement_slopes(at)
     near, slope = np.zeros(0, np.int64), np.zeros((0, 3, 3))
     add_circles(*flat, _plain(at), near, at, at)
     add_circle_slopes(*flat, _plain(at), near, at, slope, slope)
@@ -561,5 +573,5 @@ def kernels() -> tuple[Callable[..., object], ...]:
     """Give all that is compiled for maps."""
     return (
         map_layers, gather_bilges, set_angles, set_arc_places, add_bilges, add_bilge_slopes,
-        find_near, set_circle_places, add_circles, add_circle_slopes,
+        find_near, set_circle_places, add_circles, add_circle_slopes, set_displacement_slopes,
     )  # fmt: skip
