@@ -253,7 +253,9 @@ class LineHeights:
             return np.zeros(0, bool), np.zeros(0)
         least = np.minimum.reduceat(self.level, self.start)
         # There are two zeros: which of them it is, the places in their order tell.
-        return (least == np.maximum.reduceat(self.level, self.start)) & (least != 0.0), least
+        most = np.maximum.reduceat(self.level, self.start)
+        found: BoolArray = (least == most) & (least != 0.0)
+        return found, least
 
 
 def _are_centre(state: HullState, lines: IntArray) -> BoolArray:

@@ -294,13 +294,12 @@ def point_images(
 
         given = live, known.line, before, known.crossing
         told = planes.normal, planes.offset, planes.planar, driver
-        sound, *found = set_images(given, told, IN_PLANE, image, slope)
+        sound, value, direct, still, settled = set_images(given, told, IN_PLANE, image, slope)
         if not sound:
             _refuse_folds(state, live, slope[live])
     else:
         _refuse_folds(state, live, slope[live])
-        found = _placed(state, planes, driver, known, image, slope)
-    value, direct, still, settled = found
+        value, direct, still, settled = _placed(state, planes, driver, known, image, slope)
     return PointImages(
         state, space, planes, driver, image, value, direct, still, settled,
         np.zeros(len(image), bool), slope,
@@ -310,7 +309,7 @@ def point_images(
 def _placed(
     state: HullState, planes: TransformedPlanes, driver: BoolArray, known: PointStructure,
     image: FloatArray, slope: FloatArray,
-) -> list[FloatArray | BoolArray]:  # fmt: skip
+) -> tuple[FloatArray, BoolArray, BoolArray, BoolArray]:  # fmt: skip
     """Give where points go, and which are direct, still and known."""
     live, line, count = known.live, known.line, len(image)
     still = np.zeros(count, bool)
@@ -327,7 +326,7 @@ def _placed(
     value[live] = np.where(
         direct[live][:, None], snap_into_planes(state, planes, live, image[live]), image[live]
     )
-    return [value, direct, still, np.where(known.crossing, direct, drives & direct)]
+    return value, direct, still, np.where(known.crossing, direct, drives & direct)
 
 
 def _refuse_folds(state: HullState, live: IntArray, j: FloatArray) -> None:

@@ -125,7 +125,6 @@ def plane_minor(
     box: FloatArray,
 ) -> Minor:
     """Give X_x of x-fields, Z_z of z-fields, or the determinant D of both, over x and z."""
-
     slopes = displacement_slopes([*along, *up])
 
     def at(parameters: FloatArray) -> FloatArray:

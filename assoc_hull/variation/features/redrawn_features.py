@@ -78,6 +78,8 @@ class RedrawnFeatures:
         What `map` draws circles anew after.
     layers : tuple of Layer
         What `bilges` draws bilges anew after.
+    plain : SlopedMap
+        These alone as a map, compiled where that is at hand.
     """
 
     map: FeatureMap
@@ -85,18 +87,25 @@ class RedrawnFeatures:
     hosts: tuple[int, ...]
     bilges: BilgeMap
     layers: tuple[Layer, ...]
+    plain: SlopedMap
 
     @cached_property
     def quick(self) -> SlopedMap:
         """What `map` is, compiled where that is at hand: the same bits, sooner."""
+        if not self.drawn and not isinstance(self.plain, VariationMap) and is_compiled():
+            return self.plain
         arcs = list(zip(self.bilges.arcs, self.bilges.shares(), strict=True))
         return _compiled(self.layers, arcs, self.map.circles, counts=True) or self.map
 
     @property
+    def drawn(self) -> bool:
+        """Whether anything is drawn anew."""
+        return len(self.map.circles) + len(self.bilges.arcs) > 0
+
+    @property
     def space(self) -> SpaceMap:
         """The map as a transformation uses it."""
-        anew = len(self.map.circles) + len(self.bilges.arcs) > 0
-        moves = (True, True, True) if anew else moved_coordinates(self.layers)
+        moves = (True, True, True) if self.drawn else moved_coordinates(self.layers)
         return SpaceMap(self.quick, self.quick.jacobian, moves)
 
     def regions(self) -> tuple[FieldRegion, ...]:
@@ -211,6 +220,7 @@ def redraw_features(
         tuple(host for _, host in chosen),
         bilges,
         vmap.layers,
+        quick,
     )
 
 

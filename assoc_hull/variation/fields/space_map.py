@@ -9,6 +9,7 @@ every outer one once the inner ones are solved.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Protocol
 
 import attrs
@@ -31,8 +32,8 @@ from assoc_hull.variation.fields.layers import (
 __all__ = [
     "SlopedMap",
     "VariationMap",
-    "moved_coordinates",
     "inverse_map",
+    "moved_coordinates",
     "solve_coordinates",
 ]
 
