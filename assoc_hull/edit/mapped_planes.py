@@ -260,8 +260,9 @@ class LineHeights:
 
 def _are_centre(state: HullState, lines: IntArray) -> BoolArray:
     """Tell which lines lie in the centre plane."""
-    found: BoolArray = np.abs(state.lines.normal[lines, 1]) == 1.0
-    return found & (state.lines.offset[lines] == 0.0)
+    level = state.lines.offset[lines] == 0.0
+    found: BoolArray = (np.abs(state.lines.normal[lines, 1]) == 1.0) & level
+    return found
 
 
 def _is_centre(state: HullState, line: int) -> bool:

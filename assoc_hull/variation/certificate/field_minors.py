@@ -10,6 +10,7 @@ chooses. X_x, Y_y, Z_z are entries of the Jacobian, D is the determinant in x an
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -26,6 +27,7 @@ from assoc_hull.variation.certificate.field_enclosures import enclose_field
 from assoc_hull.variation.certificate.minor_search import LeastMinor, Minor, find_least_minor
 from assoc_hull.variation.fields.bounded_functions import BlendChain, BoundedFunction
 from assoc_hull.variation.fields.field import StackedField, Tube
+from assoc_hull.variation.fields.flat_layers import flat_layers
 from assoc_hull.variation.fields.layers import FieldLayer, Rake
 
 __all__ = [
@@ -143,13 +145,11 @@ def displacement_slopes(
     fields: Sequence[StackedField | Rake],
 ) -> Callable[[FloatArray], FloatArray]:
     """Give what tells the derivatives of all that fields add to places (n, 3), as (n, 3, 3)."""
-    if is_compiled(counts=False):
-        from assoc_hull.variation.features.compiled_map import CompiledMap
-        from assoc_hull.variation.features.flat_map import FlatMap
+    layer = FieldLayer("fields", tuple(fields))
+    if is_compiled(counts=False) and (flat := flat_layers([layer])) is not None:
+        from assoc_hull.variation.fields.compiled_layers import displacement_slopes_at
 
-        flat = FlatMap.of((FieldLayer("fields", tuple(fields)),))
-        if flat is not None:
-            return CompiledMap(flat).displacement_slopes
+        return partial(displacement_slopes_at, *flat)
 
     def at(xyz: FloatArray) -> FloatArray:
         found = np.zeros((*xyz.shape, 3))

@@ -22,12 +22,12 @@ from assoc_hull.variation.fields.compiled_layers import (
     blend,
     blend_slope,
     clipped,
+    displacement_slopes_at,
     map_layers,
     set_displacement_slopes,
     set_slopes,
     set_values,
 )
-from assoc_hull.variation.fields.layers import FieldLayer
 
 __all__ = ["CompiledMap", "kernels", "warm"]
 
@@ -505,13 +505,6 @@ class CompiledMap:
     def _numbers(self) -> tuple[IntArray, FloatArray]:
         return self.flat.code, self.flat.number
 
-    def displacement_slopes(self, xyz: FloatArray) -> FloatArray:
-        """Give the derivatives of what the first layer adds to places (n, 3), as (n, 3, 3)."""
-        at = _plain(xyz)
-        found = np.empty((*at.shape, 3))
-        set_displacement_slopes(*self._numbers, at, found)
-        return found
-
     def _images(self, at: FloatArray) -> FloatArray:
         """Give where the layers take places."""
         found = np.empty(at.shape)
@@ -560,9 +553,7 @@ def warm() -> bool:
     at = np.zeros((0, 3))
     every(at)
     every.jacobian(at)
-    line = FlatMap.of((FieldLayer("none", ()),))
-    assert line is not None
-    CompiledMap(line).displacement_slopes(at)
+    displacement_slopes_at(*flat, at)
     near, slope = np.zeros(0, np.int64), np.zeros((0, 3, 3))
     add_circles(*flat, _plain(at), near, at, at)
     add_circle_slopes(*flat, _plain(at), near, at, slope, slope)

@@ -12,6 +12,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.numeric.jit import jit
+from assoc_hull.model.program.compiled_program import read_only
 
 __all__ = ["blend", "blend_slope", "clipped", "map_layers", "set_slopes", "set_values"]
 
@@ -622,3 +623,10 @@ def set_displacement_slopes(
         for i in range(m):
             for k in range(9):
                 slope[begin + i, k // 3, k % 3] = own[k, i]
+
+
+def displacement_slopes_at(code: IntArray, number: FloatArray, xyz: FloatArray) -> FloatArray:
+    """Give the derivatives of what the first layer adds to places (n, 3), as (n, 3, 3)."""
+    found = np.empty((*xyz.shape, 3))
+    set_displacement_slopes(code, number, read_only(np.ascontiguousarray(xyz, np.float64)), found)
+    return found
