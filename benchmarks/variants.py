@@ -27,7 +27,8 @@ __all__ = ["figures"]
 
 _HULLS: dict[str, Callable[[], ah.Hull]] = {
     "carrier": examples.bulk_carrier_207k,
-    "Series 60": examples.series60,
+    "Series 60 .70": examples.series60,
+    "Wigley": examples.wigley,
 }
 _POINTS = 50_000
 _MORE = 1.01
@@ -35,7 +36,7 @@ _MORE = 1.01
 
 
 def figures(quick: bool) -> list[Figure]:
-    """Measure a row of a study of breadth and draught, on two hulls."""
+    """Measure a row of a study of breadth and draught, on three hulls."""
     wait_for_engine()
     rounds = 5 if quick else 15
     found = list[Figure]()

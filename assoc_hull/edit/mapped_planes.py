@@ -8,7 +8,8 @@ mapping sends most of it to a parallel plane, whichever is asked.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from functools import cached_property
 
 import attrs
 import numpy as np
@@ -110,13 +111,23 @@ def carry_planes(
     offset[apart] = [asked[line] for line in apart]
     going = [line for line in flat if (follow or line in drive) and line not in apart]
     samples = PlaneSamples.of(state, going) if samples is None else samples.some(going)
-    for line, before, after in samples.mapped(space):
-        level = np.sort(plane_heights(after, normal[line]))
+    samples = samples.moving(space, normal, offset)
+    after, heights = samples.mapped(space, normal)
+    even, told = heights.even()
+    offset[samples.number[even]] = told[even]
+    centre = _are_centre(state, samples.number)
+    # Most lines stay in planes, and nothing more is asked of them.
+    for i in np.flatnonzero(~even | centre).tolist():
+        line, span = samples.lines[i], slice(samples.start[i], samples.start[i + 1])
+        if even[i]:
+            offset[line] = _centre_kept(state, line, float(told[i]))
+            continue
+        level = np.sort(heights.level[span])
         spread = float(level[-1] - level[0])
         if spread <= IN_PLANE:
             offset[line] = _centre_kept(state, line, float(level[len(level) // 2]))
         elif line in drive:
-            found = _oblique(state, space, line, before, after)
+            found = _oblique(state, space, line, samples.before[span], after[span])
             if found is None:
                 # Only one side of a hull is stored: what lies in the centre plane may not leave it.
                 _refuse_centre(state, line, spread)
@@ -159,6 +170,7 @@ class PlaneSamples:
     lines: tuple[int, ...]
     start: tuple[int, ...]
     before: FloatArray
+    _some: dict[tuple[int, ...], PlaneSamples] = attrs.field(factory=dict, init=False, repr=False)
 
     @classmethod
     def of(cls, state: HullState, lines: Sequence[int]) -> PlaneSamples:
@@ -175,22 +187,86 @@ class PlaneSamples:
         """Give those of some of its lines."""
         if self.lines == tuple(lines):
             return self
+        found = self._some.get(tuple(lines))
+        if found is None:
+            found = self._chosen(lines)
+            self._some.clear()
+            self._some[tuple(lines)] = found
+        return found
+
+    def _chosen(self, lines: Sequence[int]) -> PlaneSamples:
         at = {line: i for i, line in enumerate(self.lines)}
         spans = [(self.start[at[line]], self.start[at[line] + 1]) for line in lines]
         parts = [self.before[begin:end] for begin, end in spans]
         start = itertools.accumulate((len(each) for each in parts), initial=0)
         return PlaneSamples(tuple(lines), tuple(start), np.concatenate([np.zeros((0, 3)), *parts]))
 
-    def mapped(self, space: SpaceMap) -> Iterator[tuple[int, FloatArray, FloatArray]]:
-        """Give places along lines, and where a mapping, asked once for all, sends them."""
+    @cached_property
+    def number(self) -> IntArray:
+        """The lines, (l,)."""
+        return np.array(self.lines, np.int64)
+
+    @cached_property
+    def _owner(self) -> IntArray:
+        """The line of each place, (n,)."""
+        return self.number.repeat(np.diff(self.start))
+
+    def mapped(self, space: SpaceMap, normal: FloatArray) -> tuple[FloatArray, LineHeights]:
+        """Give where a mapping sends the places, (n, 3), m, and how high over planes these lie.
+
+        `normal` (l, 3) is of all lines of the tables.
+        """
         after = space.places(self.before) if self.lines else self.before
-        for line, (begin, end) in zip(self.lines, itertools.pairwise(self.start), strict=True):
-            yield line, self.before[begin:end], after[begin:end]
+        level = plane_heights(after, normal[self._owner])
+        return after, LineHeights(level, np.array(self.start[:-1], np.int64))
+
+    @cached_property
+    def _levels(self) -> tuple[tuple[BoolArray, FloatArray], ...]:
+        """Of which lines each coordinate of all places is one, to the bit, and which it is."""
+        start = np.array(self.start[:-1], np.int64)
+        return tuple(LineHeights(level, start).even() for level in self.before.T)
+
+    def moving(self, space: SpaceMap, normal: FloatArray, offset: FloatArray) -> PlaneSamples:
+        """Give those of lines whose planes may move: not across an axis along which nothing moves.
+
+        `normal` (l, 3) and `offset` (l,), m, are of all lines of the tables.
+        """
+        if all(space.moves) or not self.lines:
+            return self
+        across, still = normal[self.number] == 1.0, np.zeros(len(self.lines), bool)
+        for axis in np.flatnonzero(~np.array(space.moves)).tolist():
+            even, level = self._levels[axis]
+            still |= across[:, axis] & even & (level == offset[self.number])
+        return self.some([line for line, stays in zip(self.lines, still, strict=True) if not stays])
+
+
+@attrs.frozen(eq=False)
+class LineHeights:
+    """Heights of places along lines, (n,), m; those of each line begin at `start` (l,)."""
+
+    level: FloatArray
+    start: IntArray
+
+    def even(self) -> tuple[BoolArray, FloatArray]:
+        """Tell of which lines all heights are one, to the bit, and give it, (l,) each."""
+        if not len(self.start):
+            return np.zeros(0, bool), np.zeros(0)
+        least = np.minimum.reduceat(self.level, self.start)
+        # There are two zeros: which of them it is, the places in their order tell.
+        most = np.maximum.reduceat(self.level, self.start)
+        found: BoolArray = (least == most) & (least != 0.0)
+        return found, least
+
+
+def _are_centre(state: HullState, lines: IntArray) -> BoolArray:
+    """Tell which lines lie in the centre plane."""
+    level = state.lines.offset[lines] == 0.0
+    found: BoolArray = (np.abs(state.lines.normal[lines, 1]) == 1.0) & level
+    return found
 
 
 def _is_centre(state: HullState, line: int) -> bool:
-    across = abs(float(state.lines.normal[line, 1])) == 1.0
-    return across and float(state.lines.offset[line]) == 0.0
+    return bool(_are_centre(state, np.array([line]))[0])
 
 
 def _centre_kept(state: HullState, line: int, level: float) -> float:
@@ -233,24 +309,22 @@ def _oblique(
 
 def _check_order(state: HullState, planes: TransformedPlanes) -> None:
     """See that parallel lines of a group stay apart and in order."""
-    live = state.live("lines")
-    groups = state.lines.group.data
-    for group in np.unique(groups[live]).tolist():
-        mine = live[(groups[live] == group) & planes.planar[live]]
-        mine = mine[state.lines.boundary[mine] < 0]
-        normals = {tuple(row) for row in planes.normal[mine].tolist()}
-        for normal in sorted(normals):
-            some = mine[(planes.normal[mine] == normal).all(axis=1)]
-            some = some[np.argsort(state.lines.offset[some], kind="stable")]
-            step = np.diff(planes.offset[some])
-            if len(step) and step.min() <= _APART:
-                one, other = some[int(step.argmin()) : int(step.argmin()) + 2].tolist()
-                names = state.lines.name.data
-                raise BadInputError(
-                    f"{names[other]} comes to {float(planes.offset[other]):.4f} m and "
-                    f"{names[one]} to {float(planes.offset[one]):.4f} m", "in transform",
-                    "keep the order of the lines of a group, or name the whole group as driver",
-                )  # fmt: skip
+    live, lines = state.live("lines"), state.lines
+    mine = live[planes.planar[live] & (lines.boundary[live] < 0)]
+    group, normal, offset = lines.group[mine], planes.normal[mine], lines.offset[mine]
+    order = np.lexsort((offset, *normal.T, group))
+    mine, group, normal = mine[order], group[order], normal[order]
+    beside = (group[1:] == group[:-1]) & (normal[1:] == normal[:-1]).all(axis=1)
+    step = np.where(beside, np.diff(planes.offset[mine]), np.inf)
+    if len(step) and step.min() <= _APART:
+        near = int(step.argmin())
+        one, other = mine[near : near + 2].tolist()
+        names = lines.name.data
+        raise BadInputError(
+            f"{names[other]} comes to {float(planes.offset[other]):.4f} m and "
+            f"{names[one]} to {float(planes.offset[one]):.4f} m", "in transform",
+            "keep the order of the lines of a group, or name the whole group as driver",
+        )  # fmt: skip
 
 
 def snap_into_planes(

@@ -90,10 +90,13 @@ class SpaceMap:
         The mapping.
     slope : callable or None
         Its Jacobian; central differences over +- 1 mm if None.
+    moves : (bool, bool, bool)
+        Whether it may change x, y and z of any place by a bit.
     """
 
     call: PointMapping
     slope: Jacobian | None = None
+    moves: tuple[bool, bool, bool] = (True, True, True)
 
     def places(self, xyz: FloatArray) -> FloatArray:
         """Map places, (n, 3), m.

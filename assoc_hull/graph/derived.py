@@ -142,6 +142,11 @@ class Derived:
         """Keep what another one does as well; it is true where the columns are the same."""
         self._gate.alone(partial(self._add, other.mark(), dict(other._most)))
 
+    def add_some(self, other: Derived, kinds: Sequence[Hashable]) -> None:
+        """Keep of some kinds what another one does, where the columns have the same content."""
+        known = {kind: entries for kind, entries in other.mark().items() if kind in kinds}
+        self._gate.alone(partial(self._add, known, dict(other._most)))
+
     def _add(self, known: Marked, most: Mapping[Hashable, int]) -> None:
         self._most.update(most)
         for kind, entries in known.items():

@@ -2014,12 +2014,13 @@ features
         """
         from assoc_hull.hull.variants import Variation
         from assoc_hull.variation.request import VariationRequest
-        from assoc_hull.variation.vary import vary_document
+        from assoc_hull.variation.vary import measure_parent, vary_document
 
         ask = VariationRequest.of(
             set, reach=reach, free=free, bounds=bounds, exact=exact, layers=layers, layout=layout,
             drivers=drivers, stations=stations, planes=planes, tolerance=tolerance, name=name,
         )  # fmt: skip
+        measure_parent(state_of(self, "in vary"))
         varied = _to_change(self, "vary", in_place=in_place)
         space_map, report = vary_document(varied.document, ask)
         return Variation(varied, report, space_map)

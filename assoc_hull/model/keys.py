@@ -160,7 +160,10 @@ class Keys(Sequence[str]):
 
     def __setitem__(self, row: SupportsIndex | slice, text: str | Sequence[str]) -> None:
         mine = self._codes[: self._count]
-        if isinstance(text, str):
+        if isinstance(text, Keys) and row == slice(None) and len(text) == self._count:
+            other = text.copy()
+            self._parts, self._numbers, self._codes = other._parts, other._numbers, other._codes
+        elif isinstance(text, str):
             mine[row] = self._code(text)
         else:
             mine[row] = np.array([self._code(each) for each in text], np.int32).reshape(-1, 3)
@@ -217,6 +220,8 @@ class Labels(Sequence[str]):
         rows = range(self._count)[row]
         if isinstance(rows, int):
             self._set(rows, str(text))
+        elif isinstance(text, Labels) and row == slice(None) and len(text) == self._count:
+            self._given = text._given.copy()
         else:
             for each, one in zip(rows, text, strict=True):
                 self._set(each, one)

@@ -224,9 +224,9 @@ class Maker:
 
     def points(self, specs: Sequence[PointSpec]) -> IntArray:
         """Add placed or adopted points."""
+        if not specs:
+            return np.zeros(0, np.int64)
         rows = self.journal.grow(self.state.rows, len(specs))
-        if not len(specs):
-            return rows
         table, put = self.state.rows, self.journal.put
         # One or two are looked for among all keys, for many these are made texts once.
         taken: Container[str] = table.key.data if len(specs) <= _FEW else set(table.key.data)

@@ -576,10 +576,18 @@ class HullState:
 
 
 def copy_state(state: HullState) -> HullState:
-    """Copy the tables of a hull; row numbers stay, values that never change are shared."""
+    """Copy the tables of a hull; row numbers stay, values that never change are shared.
+
+    What was measured in plain numbers is known of the copy as well.
+    """
     found = HullState(state.particulars, state.tolerances)
     copy_into(found, state)
+    found.memory.add_some(state.memory, _PLAIN)
     return found
+
+
+_PLAIN = ("measures", "fairness")
+"""Kinds of derived things that look at no tables: they are plain numbers."""
 
 
 def copy_into(found: HullState, state: HullState) -> None:
@@ -597,3 +605,5 @@ def _copy(given: Table, found: Table) -> None:
             other.take_over(column)
         elif isinstance(column, ValueColumn) and isinstance(other, ValueColumn):
             other.store[:] = column.data
+        # The number of a write stands for its content.
+        other.writes = column.writes

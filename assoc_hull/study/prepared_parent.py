@@ -11,7 +11,6 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.mapped_planes import PlaneSamples, planar_lines
 from assoc_hull.edit.recut.carry_structure import NetMap, carry_net
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError, BadInputError, FoldError
@@ -74,8 +73,6 @@ class StudyParent:
         Whether planes of waterlines and buttocks go along.
     aims, outputs : Outputs
         What is aimed at, and all that is told.
-    samples : PlaneSamples
-        Places along its lines.
     numbers : ParentNumbers or None
         What gives variants in numbers; None where its lines are made by more than their points.
     """
@@ -85,7 +82,6 @@ class StudyParent:
     follow: bool
     aims: Outputs
     outputs: Outputs
-    samples: PlaneSamples
     numbers: ParentNumbers | None
 
     @classmethod
@@ -117,8 +113,7 @@ class StudyParent:
         maps = HullMaps(room, VariationRequest({}, layout=design.layout), {}, free)
         lines, follow = _driving(maps)
         aims, outputs = (Outputs.of(state, names) for names in (design.aims, design.outputs))
-        samples = PlaneSamples.of(state, planar_lines(state))
-        return cls(maps, lines, follow, aims, outputs, samples, ParentNumbers.of(state))
+        return cls(maps, lines, follow, aims, outputs, ParentNumbers.of(state))
 
     @property
     def usual(self) -> FloatArray:
@@ -177,9 +172,7 @@ class StudyParent:
         vmap = maps.map(amplitudes)
         certificate = certify(vmap, maps.room.box)
         certificate.check()
-        laid = maps.laid(
-            amplitudes, self.lines, follow=self.follow, samples=self.samples, vmap=vmap
-        )
+        laid = maps.laid(amplitudes, self.lines, follow=self.follow, vmap=vmap)
         return laid, certificate
 
     def _kept(self, amplitudes: FloatArray) -> Variant:

@@ -22,6 +22,8 @@ from assoc_hull.errors import (
     UnknownNameError,
     UnreachableError,
 )
+from assoc_hull.graph.derived import Objects
+from assoc_hull.model.tables import HullState
 from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.aiming.reach_targets import SettledPlan, settle_plan
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
@@ -36,7 +38,7 @@ from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.stages import Plan, class_plan, finer_plan, single_plan
 from assoc_hull.variation.request import TargetRequest, VariationRequest
 
-__all__ = ["KINK", "choose_plan"]
+__all__ = ["KINK", "choose_plan", "parent_fairness"]
 
 KINK = 10.0
 """A line whose comb is larger than this many times the parent's has a kink, though nothing folds:
@@ -70,7 +72,7 @@ def choose_plan(
     AssocHullError
         What is wrong with a single value, or with targets.
     """
-    before = measure_fairness(edit.state)
+    before = parent_fairness(edit.state)
     best = list[tuple[float, int, SettledPlan]]()
     refusal: tuple[AssocHullError, StagedCarry] | None = None
     tried, there = set[tuple[Plan, bool]](), None
@@ -108,6 +110,17 @@ def choose_plan(
         again = attrs.evolve(found.carry, carried=[], refused=None)
         found = settle_plan(again, room)
     return found, _judged(edit, before)[0]
+
+
+def parent_fairness(state: HullState) -> Mapping[str, LineFairness]:
+    """Measure all lines of a parent; once, as long as they stay."""
+    lines = state.lines
+    made = [state.spline(curve) for curve in state.live("curves").tolist()]
+    depends_on = (
+        Objects(made), state.curves.alive, state.curves.line, lines.alive, lines.planar,
+        lines.normal, tuple(lines.name.data), tuple(lines.key.data),
+    )  # fmt: skip
+    return state.derived(("fairness",), depends_on, lambda: measure_fairness(state), most=2)
 
 
 def _candidates(ask: VariationRequest) -> list[tuple[Plan, bool]]:

@@ -21,7 +21,6 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.tables import HullState
-from assoc_hull.variation.aiming.reach_targets import measure_requested
 from assoc_hull.variation.aiming.report import AimReport
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.certificate.fold_check import Certificate, fold_outside
@@ -34,7 +33,7 @@ from assoc_hull.variation.parameters.parameter_fields import shift_terminals
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import Parent
 from assoc_hull.variation.parameters.value_limits import present_values
-from assoc_hull.variation.plan_choice import KINK, choose_plan
+from assoc_hull.variation.plan_choice import KINK, choose_plan, parent_fairness
 from assoc_hull.variation.request import VariationRequest, script_of
 
 __all__ = [
@@ -224,6 +223,12 @@ class VariationReport:
         return "\n".join([*targets, *aimed, *stages, *self.notes, str(self.edit)])
 
 
+def measure_parent(state: HullState) -> None:
+    """Measure what every variation asks of its parent; copies of the hull know it from then on."""
+    measure_all(state)
+    parent_fairness(state)
+
+
 def vary_document(
     document: Document, ask: VariationRequest
 ) -> tuple[VariationMap, VariationReport]:
@@ -252,8 +257,11 @@ def vary_document(
         room.check(ask.values)
         levels = edit.state.lines.offset.data.copy()
         found, fairness = choose_plan(edit, room, ask)
-        reached = measure_requested(edit.state, ask)
         now = present_values(measure_all(edit.state), ask.layout)
+        reached = {
+            name: value if CATALOGUE[name].amplitude else now[name]
+            for name, value in ask.values.items()
+        }
         edit.varied = values_of_variation(ask, was, found.aimed)
         if not any(step.script.varied for step in document.history):
             edit.varied_before = values_before(document)

@@ -43,6 +43,7 @@ from tests.conftest import Shipped
 pytest.importorskip("numba")
 
 from assoc_hull.variation.features.compiled_map import CompiledMap, kernels
+from assoc_hull.variation.fields.compiled_layers import displacement_slopes_at
 
 MAY = "assoc_hull.variation.features.redrawn_features.is_compiled"
 
@@ -297,4 +298,5 @@ def test_nothing_is_compiled_twice() -> None:
     for xyz in (np.ones((4, 3)), frozen, np.ones((3, 4)).T, np.ones((8, 6))[::2, ::2]):
         quick(xyz)
         quick.jacobian(xyz)
+        assert not displacement_slopes_at(flat.code, flat.number, xyz).any()
     assert {len(getattr(each, "signatures", ())) for each in kernels()} == {1}

@@ -32,7 +32,7 @@ from assoc_hull.analysis.net.surface_layout import (
     areas_between,
     lay_out_surface,
 )
-from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, Strips
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, Strips
 from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, prepare_strips
 from assoc_hull.geometry.floating.immersion import (
     FloatingPlanes,
@@ -49,6 +49,7 @@ __all__ = [
     "CoarseHull",
     "ErrorEstimator",
     "LinesMade",
+    "are_plainly_sound",
     "doubtful_lines",
     "doubtful_numbers",
     "error_estimator",
@@ -360,6 +361,26 @@ def doubtful_lines(
         *_kinked(net, sections, kinds),
         *_apart(net, _GAP * _half_breadth(net)),
     ]
+
+
+def are_plainly_sound(
+    net: CurveNet, layout: SurfaceLayout, sections: IntArray, kinds: NDArray[np.int8],
+    planes: FloatingPlanes,
+) -> bool:  # fmt: skip
+    """Tell soon, by compiled code, whether nothing is doubtful; False: `doubtful_lines` says.
+
+    `sections` are curves; neither `open_sections` nor `doubtful_lines` finds anything then.
+    """
+    from assoc_hull.geometry.floating import compiled_doubts
+
+    wide = _half_breadth(net)
+    limits = compiled_doubts.DoubtLimits(
+        _OPEN * wide, _GAP * wide, float(_TURN), float(_BACK), float(_HAIRPIN), _PLACES
+    )
+    return not layout.lost and compiled_doubts.are_plainly_sound(
+        net.batch, kinds, sections, net.ends_on_transom[sections],
+        (net.meets, net.place, net.watched), planes, limits,
+    )  # fmt: skip
 
 
 def _half_breadth(net: CurveNet) -> float:

@@ -213,8 +213,25 @@ class WaterplaneLimits:
             low = self._bottom.lowest(planes)
         else:
             low = _heights(self._bottom, planes, up=-1.0).min(axis=1)
+        return low + lift, self._top(planes) + lift
+
+    def _top(self, planes: FloatingPlanes) -> FloatArray:
+        """Give the most height at x = y = 0 of planes, (d,), m."""
         top = _heights(self.deck, planes, up=1.0 if self.closed else -1.0)
-        return low + lift, (top.max(axis=1) if self.closed else top.min(axis=1)) + lift
+        found: FloatArray = top.max(axis=1) if self.closed else top.min(axis=1)
+        return found
+
+    def surely_hold(self, values: FloatArray, planes: FloatingPlanes, length: float) -> bool:
+        """Tell soon whether mean draughts (d,), m, lie above points of the hull, and below the top.
+
+        False: `mean_draughts` tells.
+        """
+        lift = 0.5 * length * planes.tan_trim
+        if isinstance(self._bottom, SampledCurves):
+            low = _heights(self._bottom.batch.xyz, planes, up=-1.0).min(axis=1)
+        else:
+            low = _heights(self._bottom, planes, up=-1.0).min(axis=1)
+        return bool(((low + lift < values) & (values <= self._top(planes) + lift)).all())
 
     def lowest_edge(self, planes: FloatingPlanes, k: int) -> str:
         """Say where the deck edge is lowest over the k-th plane: x, height, nearest station."""
@@ -276,6 +293,17 @@ lowest at z 12.000 m at x 0.00 m, y 10.00 m, at T_A 13 m, T_F 13 m, heel 0 deg; 
 to 12 m
     """
     planes = planes_of(positions, length)
+    values = np.array([each.draught_mean for each in positions])
+    if not limits.surely_hold(values, planes, length):
+        _refuse_outside(positions, limits, planes, length)
+    return planes if limits.closed else _clear_of_edge(planes, limits)
+
+
+def _refuse_outside(
+    positions: Sequence[FloatingPosition], limits: WaterplaneLimits, planes: FloatingPlanes,
+    length: float,
+) -> None:  # fmt: skip
+    """Refuse the first position that is none."""
     least, most = limits.mean_draughts(planes, length)
     for k, (each, low, high) in enumerate(
         zip(positions, least.tolist(), most.tolist(), strict=True)
@@ -296,7 +324,6 @@ to 12 m
             top = float(attrs.evolve(limits, closed=True).mean_draughts(planes, length)[1][k])
             remedy = CLOSE_DECK if value <= top else ""
             raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m", remedy)
-    return planes if limits.closed else _clear_of_edge(planes, limits)
 
 
 CLOSE_DECK = 'read or make the hull with deck="closed" (--deck closed) if it has a deck'

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.hydrostatics.accuracy import (
     ErrorEstimator,
     LinesMade,
+    are_plainly_sound,
     doubtful_lines,
     doubtful_numbers,
     error_estimator,
@@ -291,11 +292,19 @@ class Flotation:
 
         `numbers` also compares them with those of other routes, which the estimate needs anyway.
         """
+        if not numbers and self._plainly_sound(planes):
+            return ()
         found = [*open_sections(self.net, self.sections, planes), *self._doubtful_lines]
         if numbers and not found:
             routes = self.measure(planes).volume, self.by_waterplanes(planes).volume
             found += doubtful_numbers(self.sections, self.spread.sections, routes, planes)
         return tuple(found)
+
+    def _plainly_sound(self, planes: FloatingPlanes) -> bool:
+        plain = backend() == "numba" and _are_plain(planes)
+        return plain and are_plainly_sound(
+            self.net, self.layout, self.known_stations.curve, self.kinds, planes
+        )
 
     @cached_property
     def _corners(self) -> FloatArray:

@@ -8,6 +8,8 @@ comes from definitions never does.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -71,37 +73,45 @@ def insert_defining_point(maker: Maker, curve: int, row: int) -> None:
 
 def link_adopted_points(state: HullState, curves: IntArray, journal: Journal) -> None:
     """Link the adopted points of curves to their driven neighbours as these lie now."""
-    for curve in curves.tolist():
-        rows: IntArray = state.curves.rows[curve]
-        rides = state.rows.sort[rows] == Sort.ADOPTED
-        rides &= ~np.isin(rows, kept_rows(state))
-        adopted, others = np.flatnonzero(rides), np.flatnonzero(~rides)
-        if not len(adopted):
-            continue
-        if not len(others):
-            journal.put(state.rows.anchor, rows[adopted], -1)
-            continue
-        after = np.searchsorted(others, adopted)
-        pair = np.column_stack(
-            [
-                np.where(after > 0, others[np.maximum(after - 1, 0)], -1),
-                np.where(after < len(others), others[np.minimum(after, len(others) - 1)], -1),
-            ]
-        )
-        anchor = np.where(pair >= 0, rows[np.maximum(pair, 0)], -1)
-        driven = (anchor >= 0) & (state.rows.driver[anchor] >= 0)
-        anchor = np.where(driven, anchor, -1)
-        journal.put(state.rows.anchor, rows[adopted], anchor)
-        journal.put(state.rows.anchor_weight, rows[adopted], _weights(state, rows, adopted, pair))
-        rebase_adopted_points(state, rows[adopted], journal)
+    parts = [state.curves.rows[curve] for curve in curves.tolist()]
+    if not parts:
+        return
+    rows, size = np.concatenate(parts), np.array([len(part) for part in parts])
+    owner = np.arange(len(parts)).repeat(size)
+    rides = state.rows.sort[rows] == Sort.ADOPTED
+    kept = kept_rows(state)
+    if len(kept):
+        rides &= ~np.isin(rows, kept)
+    adopted, others = np.flatnonzero(rides), np.flatnonzero(~rides)
+    if not len(adopted):
+        return
+    after = np.searchsorted(others, adopted)
+    pair = np.full((len(adopted), 2), -1)
+    for side, place in enumerate((after - 1, after)):
+        there = np.flatnonzero((place >= 0) & (place < len(others)))
+        beside = others[place[there]]
+        mine = owner[beside] == owner[adopted[there]]
+        pair[there[mine], side] = beside[mine]
+    anchor = np.where(pair >= 0, rows[np.maximum(pair, 0)], -1)
+    driven = (anchor >= 0) & (state.rows.driver[anchor] >= 0)
+    points, alone = rows[adopted], (pair < 0).all(axis=1)
+    journal.put(state.rows.anchor, points, np.where(driven, anchor, -1))
+    linked = points[~alone]
+    weights = _weights(state, rows, owner, adopted[~alone], pair[~alone])
+    journal.put(state.rows.anchor_weight, linked, weights)
+    rebase_adopted_points(state, linked, journal)
 
 
 def _weights(
-    state: HullState, rows: IntArray, adopted: IntArray, pair: IntArray
+    state: HullState, rows: IntArray, owner: IntArray, adopted: IntArray, pair: IntArray
 ) -> np.typing.NDArray[np.float64]:
     """Give the part of the way from the first to the second neighbour, by chords, (k,)."""
     step = np.diff(state.rows.xyz[rows], axis=0)
-    chord = np.concatenate([[0.0], np.cumsum(np.sqrt((step * step).sum(axis=1)))])
+    length = np.sqrt((step * step).sum(axis=1))
+    chord = np.zeros(len(rows))
+    begin = np.flatnonzero(np.diff(owner, prepend=-1, append=-1))
+    for first, last in pairwise(begin.tolist()):
+        np.cumsum(length[first : last - 1], out=chord[first + 1 : last])
     low, high = chord[np.maximum(pair[:, 0], 0)], chord[np.maximum(pair[:, 1], 0)]
     whole = np.where(high > low, high - low, 1.0)
     weight = np.where(

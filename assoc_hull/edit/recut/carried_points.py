@@ -28,11 +28,13 @@ from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker
+from assoc_hull.model.program.engine import is_compiled
 from assoc_hull.model.tables import Ends, HullState
 
 __all__ = [
     "DefiningPoints",
     "PointImages",
+    "PointStructure",
     "TransformationState",
     "carry_directions",
     "carry_ends",
@@ -45,6 +47,7 @@ __all__ = [
 
 BoolArray = np.typing.NDArray[np.bool_]
 EndVector = tuple[float, float, float]
+_Directed = tuple[IntArray, IntArray, FloatArray]
 
 
 @attrs.define(eq=False)
@@ -224,30 +227,96 @@ def carry_points(
     )  # fmt: skip
 
 
+@attrs.frozen(eq=False)
+class PointStructure:
+    """What of the points of a net no mapping changes: looked up once for many mappings.
+
+    Attributes
+    ----------
+    live : (k,) int
+    xyz : (r, 3), m
+        Places of all points; those that are gone among them.
+    line : (r, 2) int
+        Their lines, -1 for none.
+    crossing : (r,) bool
+    directed : two of (rows (d,), lines (d, 2), directions (d, 3))
+        Points with given directions on either side.
+    bound : tuple of int
+        Curves with conditions at their ends.
+    """
+
+    live: IntArray
+    xyz: FloatArray
+    line: IntArray
+    crossing: BoolArray
+    directed: tuple[_Directed, _Directed]
+    bound: tuple[int, ...]
+
+    @classmethod
+    def of(cls, state: HullState) -> PointStructure:
+        """Look it up in tables, which must not change afterwards."""
+        table, ends = state.rows, state.curves.ends.data
+        line = np.where(table.curve.data >= 0, state.curves.line[table.curve.data], -1)
+        directed = []
+        for side in (0, 1):
+            given = table.alive.data & (table.direction[:, side] != 0.0).any(axis=1)
+            rows = np.flatnonzero(given)
+            directed.append((rows, line[rows], table.direction[rows, side]))
+        bound = [curve for curve in state.live("curves").tolist() if any(ends[curve].kind)]
+        crossing = np.asarray(table.sort.data == Sort.CROSSING)
+        return cls(
+            state.live("rows"), table.xyz.data.copy(), line, crossing,
+            (directed[0], directed[1]), tuple(bound),
+        )  # fmt: skip
+
+
 def point_images(
-    state: HullState, space: SpaceMap, planes: TransformedPlanes, driver: BoolArray
-) -> PointImages:
+    state: HullState, space: SpaceMap, planes: TransformedPlanes, driver: BoolArray,
+    structure: PointStructure | None = None,
+) -> PointImages:  # fmt: skip
     """Map all points, and see which come to lie in the planes of their lines.
+
+    `structure` is that of these tables, if it is at hand.
 
     Raises
     ------
     BadInputError
         The mapping turns the hull inside out somewhere.
     """
-    live = state.live("rows")
-    image = state.rows.xyz.data.copy()
-    image[live] = space.places(state.rows.xyz[live])
-    slope = np.tile(np.eye(3), (state.rows.count, 1, 1))
-    slope[live] = space.jacobians(state.rows.xyz[live])
-    _refuse_folds(state, live, slope[live])
-    still = np.zeros(state.rows.count, bool)
+    known = PointStructure.of(state) if structure is None else structure
+    live, before = known.live, known.xyz
+    image, slope = before.copy(), np.zeros((len(before), 3, 3))
+    slope[:, (0, 1, 2), (0, 1, 2)] = 1.0
+    image[live] = space.places(before[live])
+    slope[live] = space.jacobians(before[live])
+    if is_compiled(counts=False):
+        from assoc_hull.edit.recut.compiled_images import set_images
+
+        given = live, known.line, before, known.crossing
+        told = planes.normal, planes.offset, planes.planar, driver
+        sound, value, direct, still, settled = set_images(given, told, IN_PLANE, image, slope)
+        if not sound:
+            _refuse_folds(state, live, slope[live])
+    else:
+        _refuse_folds(state, live, slope[live])
+        value, direct, still, settled = _placed(state, planes, driver, known, image, slope)
+    return PointImages(
+        state, space, planes, driver, image, value, direct, still, settled,
+        np.zeros(len(image), bool), slope,
+    )  # fmt: skip
+
+
+def _placed(
+    state: HullState, planes: TransformedPlanes, driver: BoolArray, known: PointStructure,
+    image: FloatArray, slope: FloatArray,
+) -> tuple[FloatArray, BoolArray, BoolArray, BoolArray]:  # fmt: skip
+    """Give where points go, and which are direct, still and known."""
+    live, line, count = known.live, known.line, len(image)
+    still = np.zeros(count, bool)
     still[live] = (slope[live] == np.eye(3)).all(axis=(1, 2)) & (
-        image[live] == state.rows.xyz[live]
+        image[live] == known.xyz[live]
     ).all(axis=1)
-    table = state.rows
-    line = np.where(table.curve.data >= 0, state.curves.line[table.curve.data], -1)
-    direct = np.ones(table.count, bool)
-    drives = np.ones(table.count, bool)
+    direct, drives = np.ones(count, bool), np.ones(count, bool)
     for side in (0, 1):
         held = (line[:, side] >= 0) & planes.planar[line[:, side]]
         off = plane_heights(image, planes.normal[line[:, side]]) - planes.offset[line[:, side]]
@@ -257,12 +326,7 @@ def point_images(
     value[live] = np.where(
         direct[live][:, None], snap_into_planes(state, planes, live, image[live]), image[live]
     )
-    crossing = table.sort.data == Sort.CROSSING
-    known = np.where(crossing, direct, drives & direct)
-    return PointImages(
-        state, space, planes, driver, image, value, direct, still, known,
-        np.zeros(table.count, bool), slope,
-    )  # fmt: skip
+    return value, direct, still, np.where(known.crossing, direct, drives & direct)
 
 
 def _refuse_folds(state: HullState, live: IntArray, j: FloatArray) -> None:
@@ -347,25 +411,23 @@ def carry_directions(work: TransformationState, journal: Journal) -> set[int]:
     return changed - {-1}
 
 
-def turned_directions(work: PointImages) -> list[tuple[IntArray, FloatArray]]:
+def turned_directions(
+    work: PointImages, structure: PointStructure | None = None
+) -> list[tuple[IntArray, FloatArray]]:
     """Give, for either side, points (k,) with directions (k, 3) that the mapping turns, and these.
 
-    A direction stays in the plane of its curve, and in the flat it borders.
+    A direction stays in the plane of its curve, and in the flat it borders. `structure` is that of
+    these tables, if it is at hand.
     """
-    state, table, found = work.state, work.state.rows, []
-    flats = flat_borders(state, work.planes)
-    for side in (0, 1):
-        given = table.alive.data & (table.direction[:, side] != 0.0).any(axis=1)
-        rows = np.flatnonzero(given)
-        curve = table.curve[rows]
-        old = table.direction[rows, side]
+    found, flats = [], flat_borders(work.state, work.planes)
+    directed = (PointStructure.of(work.state) if structure is None else structure).directed
+    for side, (rows, line, old) in enumerate(directed):
         new = _turned(work.slope[rows], old)
         moved = (new != old).any(axis=1)
-        line = np.where(curve >= 0, state.curves.line[curve], -1)
+        rows, line, new = rows[moved], line[moved], new[moved]
         normal = np.where((line >= 0)[:, :, None], work.planes.normal[line], 0.0)
         border = np.where(np.isin(line[:, 1 - side], flats)[:, None], normal[:, 1 - side], 0.0)
-        new = _lay(_lay(new, normal[:, side]), border)
-        found.append((rows[moved], new[moved]))
+        found.append((rows, _lay(_lay(new, normal[:, side]), border)))
     return found
 
 
@@ -377,12 +439,13 @@ def carry_ends(work: TransformationState, journal: Journal) -> set[int]:
     return set(found)
 
 
-def turned_ends(work: PointImages) -> dict[int, tuple[EndVector, EndVector]]:
+def turned_ends(
+    work: PointImages, structure: PointStructure | None = None
+) -> dict[int, tuple[EndVector, EndVector]]:
     """Give the vectors of the end conditions that the mapping turns or bends, by curve."""
     state, ends = work.state, work.state.curves.ends.data
     changed = dict[int, tuple[EndVector, EndVector]]()
-    bound = [curve for curve in state.live("curves").tolist() if any(ends[curve].kind)]
-    for curve in bound:
+    for curve in (PointStructure.of(state) if structure is None else structure).bound:
         old: Ends = ends[curve]
         slope = work.slope[state.curves.rows[curve][[0, -1]]]
         new = _end(work, curve, 0, slope[[0]]), _end(work, curve, 1, slope[[1]])

@@ -13,7 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.edit.mapped_planes import TransformedPlanes
-from assoc_hull.edit.recut.carried_points import point_images, turned_directions, turned_ends
+from assoc_hull.edit.recut.carried_points import (
+    PointStructure,
+    point_images,
+    turned_directions,
+    turned_ends,
+)
 from assoc_hull.edit.recut.carry_structure import given_points, refuse_bent
 from assoc_hull.edit.recut.slide_into_planes import slide_over, ways_across
 from assoc_hull.edit.space_map import SpaceMap
@@ -79,6 +84,8 @@ class NetNumbers:
         Where each point defines its curves in the program, -1 where it does not.
     across : (rows, 3)
         In which direction points of one line only slide across it.
+    points : PointStructure
+        What of its points no mapping changes.
     """
 
     state: HullState
@@ -89,6 +96,7 @@ class NetNumbers:
     plane_line: IntArray
     knots: IntArray
     across: FloatArray
+    points: PointStructure
 
     @classmethod
     def of(cls, state: HullState, index: Index, published: PublishedProgram) -> NetNumbers | None:
@@ -116,6 +124,7 @@ class NetNumbers:
             state, PublishedProgram(program, published.values), given_points(state),
             live[state.rows.sort[live] == Sort.ADOPTED], state.curves.line[program.number],
             plane_lines(state, index, program), knots, ways_across(state),
+            PointStructure.of(state),
         )  # fmt: skip
 
     def carry(
@@ -148,13 +157,13 @@ class NetNumbers:
         program = self._program(planes)
         if program is None:
             return None
-        images = point_images(self.state, space, planes, drives)
+        images = point_images(self.state, space, planes, drives, self.points)
         slide_over(images, self.across)
         direction, end = program.direction.copy(), program.end_vector.copy()
-        for side, (rows, new) in enumerate(turned_directions(images)):
+        for side, (rows, new) in enumerate(turned_directions(images, self.points)):
             knot = self.knots[rows, side]
             direction[knot[knot >= 0]] = new[knot >= 0]
-        for curve, vectors in turned_ends(images).items():
+        for curve, vectors in turned_ends(images, self.points).items():
             end[program.local[curve]] = vectors
         freeze(direction, end)
         program = attrs.evolve(program, direction=direction, end_vector=end)

@@ -320,7 +320,13 @@ def _order(
     more = work.extra.get(curve, [])
     rows = np.append(state.curves.rows[curve], [row for _, row in more]).astype(np.int64)
     knots = np.append(knots, [t for t, _ in more])
-    apart = {row for row in rows.tolist() if work.apart(row)}
+    numbers = rows.tolist()
+    untouched = slid.keys().isdisjoint(numbers) and work.gone.isdisjoint(numbers)
+    if untouched and not work.anew and not more and work.known[rows].all():
+        # All stand to one another as they did before.
+        work.made[curve] = DefiningPoints(numbers, list(work.value[rows]), knots.tolist())
+        return
+    apart = {row for row in numbers if work.apart(row)} if work.anew else set[int]()
     for row in rows[~work.known[rows]].tolist():
         if row not in work.gone and row not in apart:
             _settle(work, curve, row)

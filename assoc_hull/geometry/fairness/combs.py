@@ -1,6 +1,6 @@
 """Curvature along curves: combs for the eye, and numbers for how unfair a comb is.
 
-`comb_teeth` gives the teeth of a drawing. `curvature_sign_changes`, `greatest_curvatures` and
+`comb_teeth` gives the teeth of a drawing. `curvature_sign_changes`, `sampled_curvatures` and
 `comb_integrals` say the same in numbers, before and after a curve was varied: so they forgive
 what nobody sees, curvature within a dead band. That is another count than `inflections`, which
 looks at how far the tangent turns: a long flat wave turns much and bends little.
@@ -8,6 +8,7 @@ looks at how far the tangent turns: a long flat wave turns much and bends little
 
 from __future__ import annotations
 
+import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -29,7 +30,7 @@ __all__ = [
     "comb_integrals",
     "comb_teeth",
     "curvature_sign_changes",
-    "greatest_curvatures",
+    "sampled_curvatures",
 ]
 
 
@@ -141,58 +142,69 @@ def curvature_sign_changes(batch: SplineBatch, normals: ArrayLike, band: float) 
     TooFewPointsError
         A curve has fewer than two points.
     """
-    if not band >= 0.0:
-        raise BadInputError(
-            f"a dead band of {band} 1/m", "where signs of curvature were counted", "give 0 or more"
-        )
-    value = _sampled(batch, normals)
-    curve = np.repeat(segment_curve(batch), _SAMPLES)
-    # The comparison is false for nan, which drops curves that have no plane, and cusps.
-    beyond = np.flatnonzero(np.abs(value) > band)
-    sign, owner = value[beyond] > 0.0, curve[beyond]
-    changed = (sign[1:] != sign[:-1]) & (owner[1:] == owner[:-1])
-    count: IntArray = np.bincount(owner[1:][changed], minlength=batch.count)
-    freeze(count)
-    return count
+    return sampled_curvatures(batch, normals).sign_changes(band)
 
 
-def greatest_curvatures(batch: SplineBatch, normals: ArrayLike) -> FloatArray:
-    """Give the greatest amount of curvature along each curve, 1/m.
+@attrs.frozen(eq=False)
+class SampledCurvatures:
+    """The signed curvature at places along curves.
 
-    Parameters
+    Attributes
     ----------
-    batch, normals : SplineBatch, (m, 3) or (3,)
-        As for `curvature_sign_changes`, at whose places it looks.
-
-    Returns
-    -------
-    (m,), 1/m
-        The greatest curvature; 0 where the curve has no plane.
+    count : int
+        How many curves there are.
+    curve : (n,) int
+        The curve of each place, rising.
+    value : (n,), 1/m
+        nan where a curve has no plane.
     """
-    value = np.nan_to_num(np.abs(_sampled(batch, normals)), posinf=np.inf)
-    curve = np.repeat(segment_curve(batch), _SAMPLES)
-    first = np.searchsorted(curve, np.arange(batch.count))
-    greatest: FloatArray = np.maximum.reduceat(value, first) if len(value) else np.zeros(0)
-    freeze(greatest)
-    return greatest
+
+    count: int
+    curve: IntArray
+    value: FloatArray
+
+    def sign_changes(self, band: float) -> IntArray:
+        """Count the changes of sign beyond a dead band (1/m) along each curve, (m,)."""
+        if not band >= 0.0:
+            raise BadInputError(
+                f"a dead band of {band} 1/m", "where signs of curvature were counted",
+                "give 0 or more",
+            )  # fmt: skip
+        # The comparison is false for nan, which drops curves that have no plane, and cusps.
+        beyond = np.flatnonzero(np.abs(self.value) > band)
+        sign, owner = self.value[beyond] > 0.0, self.curve[beyond]
+        changed = (sign[1:] != sign[:-1]) & (owner[1:] == owner[:-1])
+        found: IntArray = np.bincount(owner[1:][changed], minlength=self.count)
+        freeze(found)
+        return found
+
+    def greatest(self) -> FloatArray:
+        """Give the greatest amount along each curve, (m,), 1/m; 0 where it has no plane."""
+        value = np.nan_to_num(np.abs(self.value), posinf=np.inf)
+        first = np.searchsorted(self.curve, np.arange(self.count))
+        found: FloatArray = np.maximum.reduceat(value, first) if len(value) else np.zeros(0)
+        freeze(found)
+        return found
 
 
-def _sampled(batch: SplineBatch, normals: ArrayLike) -> FloatArray:
-    """Give the signed curvature at places along each segment, one segment after the other."""
-    first, second, _, normal = _derivatives(batch, normals, np.linspace(0.0, 1.0, _SAMPLES))
-    return plane_curvature(first, second, normal).ravel()
+def sampled_curvatures(batch: SplineBatch, normals: ArrayLike) -> SampledCurvatures:
+    """Give the signed curvature at places along curves, seen in planes with unit normals."""
+    first, second, normal = _derivatives(batch, normals, np.linspace(0.0, 1.0, _SAMPLES), 2)
+    value = plane_curvature(first, second, normal).ravel()
+    return SampledCurvatures(batch.count, np.repeat(segment_curve(batch), _SAMPLES), value)
 
 
 def _derivatives(
-    batch: SplineBatch, normals: ArrayLike, u: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Give three derivatives (s, k, 3) by the segments' parameters, and normals (s, 1, 3)."""
+    batch: SplineBatch, normals: ArrayLike, u: FloatArray, count: int
+) -> tuple[FloatArray, ...]:
+    """Give derivatives (s, k, 3) by the segments' parameters, and normals (s, 1, 3)."""
     normal = check_normals(normals, batch.count)[segment_curve(batch), None]
-    slopes = differentiate(power_coefficients(batch))
-    bends = differentiate(slopes)
-    at = np.broadcast_to(u, (len(slopes), len(u)))
-    found = [horner(each, at) for each in (slopes, bends, differentiate(bends))]
-    return found[0], found[1], found[2], normal
+    cubics, found = power_coefficients(batch), list[FloatArray]()
+    at = np.broadcast_to(u, (len(cubics), len(u)))
+    for _ in range(count):
+        cubics = differentiate(cubics)
+        found.append(horner(cubics, at))
+    return *found, normal
 
 
 def comb_integrals(batch: SplineBatch, normals: ArrayLike) -> FloatArray:
@@ -234,7 +246,7 @@ def comb_integrals(batch: SplineBatch, normals: ArrayLike) -> FloatArray:
     [0.0]
     """
     nodes, weights = gauss(_NODES)
-    first, second, third, normal = _derivatives(batch, normals, nodes)
+    first, second, third, normal = _derivatives(batch, normals, nodes, 3)
     first, second, third = (each - dot(each, normal)[..., None] * normal
                             for each in (first, second, third))  # fmt: skip
     square, growth = dot(first, first), 2.0 * dot(first, second)

@@ -64,20 +64,6 @@ def _inverse(degree: int) -> FloatArray:
 
 
 @cache
-def _halving(degree: int) -> tuple[FloatArray, FloatArray]:
-    """Give the matrices of both halves, by de Casteljau."""
-    first = np.array(
-        [
-            [math.comb(i, j) / 2.0**i if j <= i else 0.0 for j in range(degree + 1)]
-            for i in range(degree + 1)
-        ]
-    )
-    last = np.ascontiguousarray(first[::-1, ::-1])
-    freeze(first, last)
-    return first, last
-
-
-@cache
 def bernstein_nodes(degrees: Degrees) -> FloatArray:
     """Give the parameters, (n, k), at which values determine a polynomial of these degrees."""
     found = np.array(list(product(*(_line(degree).tolist() for degree in degrees))))
@@ -130,9 +116,13 @@ def _orders(count: int, axis: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
 
 
 def halve_boxes(found: FloatArray, axis: int) -> tuple[FloatArray, FloatArray]:
-    """Give the coefficients on the lower and the upper half of one parameter."""
-    first, last = _halving(found.shape[axis + 1] - 1)
-    return _along(first, found, axis), _along(last, found, axis)
+    """Give the coefficients on the lower and the upper half of one parameter, by de Casteljau."""
+    row = np.moveaxis(found, axis + 1, -1)
+    first, last = np.empty(row.shape), np.empty(row.shape)
+    for k in range(row.shape[-1]):
+        first[..., k], last[..., -1 - k] = row[..., 0], row[..., -1]
+        row = 0.5 * (row[..., :-1] + row[..., 1:])
+    return np.moveaxis(first, -1, axis + 1), np.moveaxis(last, -1, axis + 1)
 
 
 def corner_coefficients(found: FloatArray) -> FloatArray:

@@ -40,13 +40,15 @@ import os, sys
 again, *sys.path[:] = sys.argv[1:]
 if again == "no" and hasattr(os, "nice"):
     os.nice(5)
-from assoc_hull.geometry.floating import compiled_immersion, compiled_sections
+from assoc_hull.edit.recut import compiled_images
+from assoc_hull.geometry.floating import compiled_doubts, compiled_immersion, compiled_sections
 from assoc_hull.geometry.surfaces import compiled_cells
 from assoc_hull.model.program import compiled_fields, compiled_program
+from assoc_hull.variation.certificate import compiled_search
 from assoc_hull.variation.features import compiled_map
 parts = (
     compiled_program, compiled_fields, compiled_map, compiled_cells, compiled_immersion,
-    compiled_sections,
+    compiled_sections, compiled_doubts, compiled_images, compiled_search,
 )
 if not all([each.warm() for each in parts]):
     if again == "yes":

@@ -148,6 +148,7 @@ def settle_plan(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
         What the first round raises.
     """
     ask, aims, start = carry.ask, _Aims.of(carry.ask), None
+    carry.base = room
     before = None
     if ask.reach is not None:
         freedoms(room, ask, ask.reach)  # refused before anything is carried

@@ -10,16 +10,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 
 import attrs
 import numpy as np
 
+from assoc_hull.edit.mapped_planes import PlaneSamples, planar_lines
 from assoc_hull.errors import AssocHullError, BadInputError, FoldError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.certificate.admissible_amplitudes import admissible_amplitudes
 from assoc_hull.variation.certificate.fold_check import Certificate, certify
-from assoc_hull.variation.features.redrawn_features import redraw_features
+from assoc_hull.variation.features.redrawn_features import HullFeatures, redraw_features
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.compose_map import compose_map, conflicts, refuse_clashes
@@ -110,6 +112,16 @@ class AdmissibleValues:
         parent, was = parent_of(state, measures), present_values(measures, layout)
         return cls(state, parent, was, layout, hull_box(state, tolerance))
 
+    @cached_property
+    def had(self) -> HullFeatures:
+        """The circles and bilges of the hull."""
+        return HullFeatures.of(self.state)
+
+    @cached_property
+    def samples(self) -> PlaneSamples:
+        """Places along its planar lines."""
+        return PlaneSamples.of(self.state, planar_lines(self.state))
+
     def interval(self, name: str) -> tuple[float, float]:
         """Give the least and greatest value of a parameter, asked for alone; sought once."""
         if name not in self._found:
@@ -184,7 +196,10 @@ class AdmissibleValues:
     def _featured(self, vmap: VariationMap, asked: Mapping[str, float]) -> None:
         """Refuse a map after which features cannot be drawn again."""
         redraw_features(
-            self.state, vmap, requested_radii(self.state, self.parent, asked, self.present)
+            self.state,
+            vmap,
+            requested_radii(self.state, self.parent, asked, self.present),
+            self.had,
         )
 
     def _laid(self, asked: Mapping[str, float]) -> VariationMap:

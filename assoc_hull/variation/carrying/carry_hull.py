@@ -25,7 +25,7 @@ from assoc_hull.variation.carrying.admissible_values import requested_radii
 from assoc_hull.variation.carrying.driving_lines import DrivingLines, choose_drivers, section_planes
 from assoc_hull.variation.features.redrawn_features import redraw_features
 from assoc_hull.variation.fields.field import FieldRegion
-from assoc_hull.variation.fields.space_map import VariationMap
+from assoc_hull.variation.fields.space_map import SlopedMap, VariationMap
 from assoc_hull.variation.parameters.parent import Parent
 from assoc_hull.variation.request import VariationRequest
 
@@ -190,7 +190,7 @@ def carry_map(
 
 
 def resized_particulars(
-    state: HullState, vmap: VariationMap, parent: Parent, asked: Mapping[str, float]
+    state: HullState, vmap: SlopedMap, parent: Parent, asked: Mapping[str, float]
 ) -> Particulars:
     """Give the principal dimensions of a hull after a map.
 
@@ -198,7 +198,7 @@ def resized_particulars(
     ----------
     state : HullState
         The tables, before.
-    vmap : VariationMap
+    vmap : SlopedMap
         The map; the deck amidships tells what becomes of the depth.
     parent : Parent
         What is measured of the hull.

@@ -93,6 +93,8 @@ class StagedCarry:
         What has been carried by now.
     refused : Stage or None
         The stage that was refused last, at its finest.
+    base : AdmissibleValues or None
+        What is measured of the hull as it came, if it is at hand.
     """
 
     edit: Transaction
@@ -102,6 +104,7 @@ class StagedCarry:
     together: bool = False
     carried: list[CarriedMap] = attrs.field(factory=list)
     refused: Stage | None = None
+    base: AdmissibleValues | None = None
 
     def run(self, aims: Mapping[str, float]) -> None:
         """Carry the hull as it came by all stages; whatever was carried before is taken back.
@@ -177,6 +180,8 @@ class StagedCarry:
 
     def _room(self) -> AdmissibleValues:
         """Measure the hull as it is by now."""
+        if self.base is not None and not self.edit.stages:
+            return self.base
         return AdmissibleValues.of(self.edit.state, self.ask.layout, self.ask.tolerance)
 
     def carry(

@@ -17,6 +17,7 @@ from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.model.kinds import FAMILIES
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.fields.field import StackedField
 from assoc_hull.variation.fields.layers import AdditiveLayer, FieldLayer, Layer
@@ -94,14 +95,41 @@ def choose_drivers(
     BadInputError
         Nothing can drive.
     """
-    kept, goes = find_kept_planes(state, space), follow and planes_go(state, space)
+    some = LineImages.of(state, space)
+    kept, goes = find_kept_planes(state, space, some), follow and planes_go(state, space, some)
     if given is not None:
         left = [line for line in sorted(given) if not _hardly_bent(state, space, line, kept)]
         return DrivingLines(tuple(left or sorted(given)), goes, kept)
     return DrivingLines(default_drivers(state, kept, stations, follow=goes), goes, kept)
 
 
-def find_kept_planes(state: HullState, space: SpaceMap) -> KeptPlanes:
+@attrs.frozen(eq=False)
+class LineImages:
+    """Places along all lines, and where a map sends them.
+
+    Attributes
+    ----------
+    line : (n,) int
+    xyz, image : (n, 3), m
+    """
+
+    line: IntArray
+    xyz: FloatArray
+    image: FloatArray
+
+    @classmethod
+    def of(cls, state: HullState, space: SpaceMap) -> LineImages:
+        """Take places along the lines of a net."""
+        curves = state.live("curves")
+        splines = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+        start, xyz = sample(splines, _SAMPLES)
+        line = np.repeat(state.curves.line[curves], np.diff(start))
+        return cls(line, xyz, space.places(xyz))
+
+
+def find_kept_planes(
+    state: HullState, space: SpaceMap, some: LineImages | None = None
+) -> KeptPlanes:
     """Find which planes a map keeps on the lines of a net, line by line.
 
     Parameters
@@ -110,6 +138,8 @@ def find_kept_planes(state: HullState, space: SpaceMap) -> KeptPlanes:
         The tables.
     space : SpaceMap
         The map.
+    some : LineImages or None
+        Of these, if they are at hand.
 
     Returns
     -------
@@ -117,10 +147,8 @@ def find_kept_planes(state: HullState, space: SpaceMap) -> KeptPlanes:
         By number of line; of lines that are not alive, and of axes other than a line's own, the
         entries mean nothing.
     """
-    curves = state.live("curves")
-    start, xyz = sample(SplineBatch.join([state.spline(c) for c in curves.tolist()]), _SAMPLES)
-    line = np.repeat(state.curves.line[curves], np.diff(start))
-    slope, image = space.jacobians(xyz), space.places(xyz)
+    some = LineImages.of(state, space) if some is None else some
+    line, xyz, image, slope = some.line, some.xyz, some.image, space.jacobians(some.xyz)
     moved = np.abs(image - xyz) > IN_PLANE
     bent, gone = np.zeros((state.lines.count, 3), bool), np.zeros((state.lines.count, 3), bool)
     for axis in range(3):
@@ -162,18 +190,21 @@ def _spread(line: IntArray, level: FloatArray, count: int) -> FloatArray:
     return found
 
 
-def planes_go(state: HullState, space: SpaceMap) -> bool:
+def planes_go(state: HullState, space: SpaceMap, some: LineImages | None = None) -> bool:
     """Tell whether a map sends at least half of each waterline and buttock to a parallel plane.
 
-    If some went and others stayed, lines of one family could pass each other.
+    If some went and others stayed, lines of one family could pass each other. `some` are of these
+    tables and this map, if they are at hand.
     """
-    for line in state.live("lines").tolist():
-        axis = state.family(line).axis
-        if axis is None or axis == 0 or state.lines.boundary[line] >= 0:
+    some = LineImages.of(state, space) if some is None else some
+    order = np.argsort(some.line, kind="stable")
+    line, image = some.line[order], some.image[order]
+    for each in state.live("lines").tolist():
+        axis = state.family(each).axis
+        if axis is None or axis == 0 or state.lines.boundary[each] >= 0:
             continue
-        splines = [state.spline(curve) for curve in state.lines.curves[line]]
-        xyz = space.places(sample(SplineBatch.join(splines), _SAMPLES)[1])
-        if not mostly_in_one_plane(np.sort(xyz[:, axis])):
+        begin, end = np.searchsorted(line, (each, each + 1)).tolist()
+        if not mostly_in_one_plane(np.sort(image[begin:end, axis])):
             return False
     return True
 
@@ -276,10 +307,13 @@ def section_planes(state: HullState, layers: Iterable[Layer]) -> dict[int, float
     layers : iterable of Layer
         The map.
     """
-    lines = [
-        line for line in state.live("lines").tolist()
-        if state.family(line).axis == 0 and state.lines.boundary[line] < 0
-        and state.lines.planar[line]
+    live, table = state.live("lines"), state.lines
+    live = live[(table.boundary[live] < 0) & table.planar[live]]
+    group = table.group[live]
+    across = [
+        each for each in np.unique(group).tolist()
+        if FAMILIES[state.groups.family[each]].axis == 0
     ]  # fmt: skip
+    lines = live[np.isin(group, across)]
     after = stations_along(layers, state.lines.offset[lines])
-    return dict(zip(lines, after.tolist(), strict=True))
+    return dict(zip(lines.tolist(), after.tolist(), strict=True))

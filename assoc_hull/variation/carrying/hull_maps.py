@@ -10,7 +10,7 @@ import numpy as np
 
 from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.mapped_features import carry_features
-from assoc_hull.edit.mapped_planes import PlaneSamples, TransformedPlanes, carry_planes
+from assoc_hull.edit.mapped_planes import TransformedPlanes, carry_planes
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.features import Feature
@@ -155,7 +155,7 @@ class HullMaps:
     def driving(self, amplitudes: FloatArray) -> tuple[IntArray, bool]:
         """Give the lines that drive under a map, and whether planes of followers go along."""
         state, ask, vmap = self.state, self.ask, self.map(amplitudes)
-        anew = redraw_features(state, vmap, self._radii(amplitudes))
+        anew = redraw_features(state, vmap, self._radii(amplitudes), self.room.had)
         given = None if ask.drivers is None else GivenObjects(state).driving(ask.drivers)
         kept = choose_drivers(
             state, anew.space, given, ask.stations,
@@ -169,12 +169,14 @@ class HullMaps:
 
     def places(self, amplitudes: FloatArray, source: FloatArray) -> FloatArray:
         """Give where a map sends places (n, 3) of the parent, m, circles drawn anew."""
-        anew = redraw_features(self.state, self.map(amplitudes), self._radii(amplitudes))
+        anew = redraw_features(
+            self.state, self.map(amplitudes), self._radii(amplitudes), self.room.had
+        )
         return anew.quick(source)
 
     def laid(
         self, amplitudes: FloatArray, lines: IntArray, *, follow: bool,
-        samples: PlaneSamples | None = None, vmap: VariationMap | None = None,
+        vmap: VariationMap | None = None,
     ) -> LaidMap:  # fmt: skip
         """Give a map, and what it does with lines, features and dimensions of the parent.
 
@@ -185,16 +187,16 @@ class HullMaps:
             Numbers of the lines that drive, boundary curves among them.
         follow : bool
             Whether planes of followers go along.
-        samples : PlaneSamples or None
-            Places along lines of the parent, if they are at hand.
         vmap : VariationMap or None
             The map, if it is at hand.
         """
         state, asked = self.state, self.values(amplitudes)
         vmap = self.map(amplitudes) if vmap is None else vmap
-        anew = redraw_features(state, vmap, self._radii(amplitudes))
+        anew = redraw_features(state, vmap, self._radii(amplitudes), self.room.had)
         space = anew.space
         levels = section_planes(state, vmap.layers) if self.ask.stations == "number" else None
-        planes = carry_planes(state, space, lines, follow=follow, levels=levels, samples=samples)
-        size = resized_particulars(state, vmap, self.room.parent, asked)
+        planes = carry_planes(
+            state, space, lines, follow=follow, levels=levels, samples=self.room.samples
+        )
+        size = resized_particulars(state, anew.plain, self.room.parent, asked)
         return LaidMap(vmap, planes, size, space, anew, state)

@@ -11,6 +11,7 @@ Planes of lines go as a transformation sends them, and points stay in these (`sl
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 
 import attrs
 import numpy as np
@@ -57,8 +58,8 @@ class Velocities:
         Of planes, along their normals.
     sizes : (k, 4), m per unit
         Of length, breadth, depth and draught.
-    features : tuple of k mappings of str to mapping of str to float or (3,)
-        Of centres, radii and offsets, by key.
+    beside : tuple of k (two LaidMap, float)
+        The maps by which differences are taken, and the span between them.
     rows : (n,) int
         The points that move by themselves; the others are computed.
     bend : (n,), 1/m
@@ -72,7 +73,7 @@ class Velocities:
     turn: FloatArray
     level: FloatArray
     sizes: FloatArray
-    features: tuple[Mapping[str, Mapping[str, FloatArray]], ...]
+    beside: tuple[tuple[Sequence[LaidMap], float], ...]
     rows: IntArray
     bend: FloatArray
     source: FloatArray
@@ -80,6 +81,11 @@ class Velocities:
 
     def __attrs_post_init__(self) -> None:
         freeze(self.move, self.carried, self.turn, self.level, self.sizes, self.rows, self.bend)
+
+    @cached_property
+    def features(self) -> tuple[Mapping[str, Mapping[str, FloatArray]], ...]:
+        """Rates of centres, radii and offsets of features, by key; only nudges ask for them."""
+        return tuple(_feature_rates(pair, span) for pair, span in self.beside)
 
     def nudge(self, by: FloatArray, size: Particulars, within: float) -> Nudge:
         """Give the nudge that changes of the amplitudes make.
@@ -168,7 +174,7 @@ def velocities(
     here = maps.laid(amplitudes, lines, follow=follow)
     source = _sources(state, maps.state, here)
     ground, found = SlideSurface.of(state, lines), list[tuple[FloatArray, ...]]()
-    features = list[dict[str, dict[str, FloatArray]]]()
+    spans = list[tuple[Sequence[LaidMap], float]]()
     for j, each in enumerate(maps.free):
         beside = list[LaidMap | AssocHullError]()
         for by in (_STEP * each.usual, -_STEP * each.usual):
@@ -177,11 +183,11 @@ def velocities(
             beside.append(_laid(maps, there, lines, follow=follow))
         pair, span = _spanned(beside, here, _STEP * each.usual)
         found.append(_rates(state, ground, here, pair, source, span))
-        features.append(_feature_rates(pair, span))
+        spans.append((pair, span))
     move, carried, turn, level, sizes = (np.stack(part) for part in zip(*found, strict=True))
     rows = nudged(state)
     return Velocities(
-        move, carried, turn, level, sizes, tuple(features), rows, curve_bending(state)[rows],
+        move, carried, turn, level, sizes, tuple(spans), rows, curve_bending(state)[rows],
         source[rows], state.rows.xyz[rows].copy(),
     )  # fmt: skip
 

@@ -10,6 +10,7 @@ chooses. X_x, Y_y, Z_z are entries of the Jacobian, D is the determinant in x an
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -21,10 +22,12 @@ from assoc_hull.geometry.numeric.intervals import (
     interval_product,
     interval_sum,
 )
+from assoc_hull.model.program.engine import is_compiled
 from assoc_hull.variation.certificate.field_enclosures import enclose_field
 from assoc_hull.variation.certificate.minor_search import LeastMinor, Minor, find_least_minor
 from assoc_hull.variation.fields.bounded_functions import BlendChain, BoundedFunction
 from assoc_hull.variation.fields.field import StackedField, Tube
+from assoc_hull.variation.fields.flat_layers import flat_layers
 from assoc_hull.variation.fields.layers import FieldLayer, Rake
 
 __all__ = [
@@ -32,9 +35,9 @@ __all__ = [
     "box_minor",
     "breadth_minor",
     "degrees_of",
+    "displacement_slopes",
     "field_cells",
     "field_functions",
-    "field_gradients",
     "field_minors",
     "half_breadths",
     "is_level",
@@ -124,11 +127,11 @@ def plane_minor(
     box: FloatArray,
 ) -> Minor:
     """Give X_x of x-fields, Z_z of z-fields, or the determinant D of both, over x and z."""
+    slopes = displacement_slopes([*along, *up])
 
     def at(parameters: FloatArray) -> FloatArray:
-        xyz = _at_breadth(0.0, parameters)
-        x_x, x_z = field_gradients(along, xyz)
-        z_x, z_z = field_gradients(up, xyz)
+        found = slopes(_at_breadth(0.0, parameters))
+        (x_x, x_z), (z_x, z_z) = ((found[:, k, 0], found[:, k, 2]) for k in (0, 2))
         whole: FloatArray = (1.0 + x_x) * (1.0 + z_z) - x_z * z_x
         return whole
 
@@ -138,14 +141,23 @@ def plane_minor(
     return Minor(name, lower, upper, total, at, lambda parameters: _at_breadth(0.0, parameters))
 
 
-def field_gradients(
-    fields: Sequence[StackedField | Rake], xyz: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Give the derivatives of the sum of fields by x and by z."""
-    total = np.zeros((len(xyz), 3))
-    for field in fields:
-        total += field.gradient(xyz)
-    return total[:, 0], total[:, 2]
+def displacement_slopes(
+    fields: Sequence[StackedField | Rake],
+) -> Callable[[FloatArray], FloatArray]:
+    """Give what tells the derivatives of all that fields add to places (n, 3), as (n, 3, 3)."""
+    layer = FieldLayer("fields", tuple(fields))
+    if is_compiled(counts=False) and (flat := flat_layers([layer])) is not None:
+        from assoc_hull.variation.fields.compiled_layers import displacement_slopes_at
+
+        return partial(displacement_slopes_at, *flat)
+
+    def at(xyz: FloatArray) -> FloatArray:
+        found = np.zeros((*xyz.shape, 3))
+        for field in fields:
+            found[:, "xyz".index(field.axis)] += field.gradient(xyz)
+        return found
+
+    return at
 
 
 def degrees_of(fields: Sequence[StackedField | Rake]) -> tuple[int, int]:
@@ -188,13 +200,12 @@ def breadth_minor(fields: _Fields, box: FloatArray) -> Minor:
         np.column_stack([np.repeat(part, len(out), axis=0), np.tile(out, len(part))])
         for part, out in zip(plane, (steps[:-1], steps[1:]), strict=True)
     )
+    slopes = displacement_slopes(fields)
     degrees = *degrees_of(fields), max((tube.blend.degree for tube in tubes), default=0)
 
     def at(parameters: FloatArray) -> FloatArray:
         xyz = _breadth_places(parameters)
-        total = np.ones(len(xyz))
-        for field in fields:
-            total += field.gradient(xyz)[:, 1]
+        total: FloatArray = 1.0 + slopes(xyz)[:, 1, 1]
         return total
 
     return Minor("Y_y", lower, upper, degrees, at, _breadth_places)

@@ -151,8 +151,10 @@ def fold_cause(layer: FieldLayer, axes: str, place: tuple[float, float, float]) 
     fields = [each for each in layer.fields if each.axis in axes]
     if not fields:
         return FoldCause(field="", between=(), node=None)
-    own = [float(each.gradient(xyz)[0, "xyz".index(each.axis)]) for each in fields]
-    field = fields[int(np.argmin(own))]
+    field = fields[0]
+    if len(fields) > 1:
+        own = [float(each.gradient(xyz)[0, "xyz".index(each.axis)]) for each in fields]
+        field = fields[int(np.argmin(own))]
     return FoldCause(field=field.name, between=_between(field, place), node=_node(field, place[0]))
 
 

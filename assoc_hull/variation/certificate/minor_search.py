@@ -19,6 +19,7 @@ from assoc_hull.geometry.numeric.tensor_bernstein import (
     corner_coefficients,
     halve_boxes,
 )
+from assoc_hull.model.program.engine import is_compiled
 
 __all__ = ["LeastMinor", "Minor", "find_least_minor"]
 
@@ -155,6 +156,8 @@ def find_least_minor(minor: Minor, enough: float) -> LeastMinor:
         Least value and bound are 1e-9 apart, unless that takes too many boxes.
     """
     boxes = _begin(minor)
+    if minor.within is None and minor.beyond is None and boxes.foot is None and _is_quick():
+        return _by_compiled(minor, boxes, enough)
     least, bound, count, splits = np.inf, np.inf, 0, 0
     where, home = minor.lower[0], 0
     for rounds in range(_DEPTH * minor.lower.shape[1] + 1):
@@ -180,6 +183,23 @@ def find_least_minor(minor: Minor, enough: float) -> LeastMinor:
         splits += len(boxes.lower)
         boxes = _split(boxes)
     return _found(minor, where, home, (bound, least), (count, splits))
+
+
+def _is_quick() -> bool:
+    """Tell whether compiled code is at hand; a certificate alone is no reason to have it made."""
+    return is_compiled(counts=False)
+
+
+def _by_compiled(minor: Minor, boxes: _Boxes, enough: float) -> LeastMinor:
+    """Do the same by compiled code: polynomials alone, that count on all of their boxes."""
+    from assoc_hull.variation.certificate.compiled_search import SearchLimits, search_coefficients
+
+    limits = SearchLimits(_NEAR, _NEARLY, _SHARP, _ENOUGH, _MOST, _DEPTH, _TIE)
+    found = search_coefficients(
+        boxes.lower, boxes.upper, boxes.top, boxes.slack, enough, limits
+    )  # fmt: skip
+    values, counts = (found.bound, found.least), (found.boxes, found.splits)
+    return _found(minor, found.where, found.home, values, counts)
 
 
 def _begin(minor: Minor) -> _Boxes:

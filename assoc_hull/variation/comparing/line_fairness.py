@@ -29,8 +29,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.combs import (
     DEAD_BAND,
     comb_integrals,
-    curvature_sign_changes,
-    greatest_curvatures,
+    sampled_curvatures,
 )
 from assoc_hull.geometry.splines.arc_length import arc_length
 from assoc_hull.model.tables import HullState
@@ -249,10 +248,11 @@ def _summed(
     batch: SplineBatch, normals: FloatArray, owner: IntArray, band: float
 ) -> list[tuple[int, float, float]]:
     """Give sign changes, comb integral and greatest curvature of each line."""
-    changes = np.bincount(owner, curvature_sign_changes(batch, normals, band)).astype(np.int64)
+    bends = sampled_curvatures(batch, normals)
+    changes = np.bincount(owner, bends.sign_changes(band)).astype(np.int64)
     comb = np.bincount(owner, comb_integrals(batch, normals))
     greatest = np.zeros(len(comb))
-    np.maximum.at(greatest, owner, greatest_curvatures(batch, normals))
+    np.maximum.at(greatest, owner, bends.greatest())
     return list(zip(changes.tolist(), comb.tolist(), greatest.tolist(), strict=True))
 
 

@@ -22,7 +22,9 @@ from assoc_hull.variation.fields.compiled_layers import (
     blend,
     blend_slope,
     clipped,
+    displacement_slopes_at,
     map_layers,
+    set_displacement_slopes,
     set_slopes,
     set_values,
 )
@@ -551,6 +553,7 @@ def warm() -> bool:
     at = np.zeros((0, 3))
     every(at)
     every.jacobian(at)
+    displacement_slopes_at(*flat, at)
     near, slope = np.zeros(0, np.int64), np.zeros((0, 3, 3))
     add_circles(*flat, _plain(at), near, at, at)
     add_circle_slopes(*flat, _plain(at), near, at, slope, slope)
@@ -561,5 +564,5 @@ def kernels() -> tuple[Callable[..., object], ...]:
     """Give all that is compiled for maps."""
     return (
         map_layers, gather_bilges, set_angles, set_arc_places, add_bilges, add_bilge_slopes,
-        find_near, set_circle_places, add_circles, add_circle_slopes,
+        find_near, set_circle_places, add_circles, add_circle_slopes, set_displacement_slopes,
     )  # fmt: skip

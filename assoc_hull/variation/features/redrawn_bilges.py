@@ -10,7 +10,8 @@ of the port half. `bilge_map` at the end finds the bilges of a net.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import cached_property
 
 import attrs
 import numpy as np
@@ -29,11 +30,14 @@ from assoc_hull.variation.fields.space_map import SlopedMap
 
 __all__ = [
     "CURVE",
+    "Bilge",
     "BilgeArc",
     "BilgeFillet",
     "BilgeMap",
     "bilge_map",
+    "bilges_of",
     "fillet_bilge",
+    "redraw_bilges",
 ]
 
 
@@ -320,7 +324,7 @@ _LARGEST = 0.1
 
 
 @attrs.frozen(eq=False)
-class _Between:
+class Bilge:
     """A bilge and the straight lines it lies between, before a map.
 
     Attributes
@@ -341,6 +345,16 @@ class _Between:
         """Give places (n, 3), m, of the section."""
         return np.column_stack([np.full(len(yz), self.x), yz])
 
+    @cached_property
+    def around(self) -> FloatArray:
+        """Places all around it, (n, 3), m."""
+        old, part = self.bilge, np.linspace(0.0, 1.0, 6)
+        low, high = old.floor - old.radius, old.side + np.array([0.0, old.radius])
+        grid = np.meshgrid(low[0] + part * (high[0] - low[0]), low[1] + part * (high[1] - low[1]))
+        found = self.at(np.column_stack([each.ravel() for each in grid]))
+        freeze(found)
+        return found
+
     def reach(self) -> tuple[float, float]:
         """Give how far along bottom and side a correction may go, m."""
         most = JOIN * self.bilge.radius
@@ -349,7 +363,18 @@ class _Between:
 
 
 def bilge_map(state: HullState, vmap: SlopedMap) -> BilgeMap:
-    """Draw the bilge arcs of a hull again for a map.
+    """Draw the bilge arcs of a hull again for a map, as `redraw_bilges`."""
+    return redraw_bilges(bilges_of(state), vmap)
+
+
+def bilges_of(state: HullState) -> tuple[tuple[Feature, Bilge], ...]:
+    """Give the arcs of a hull that are bilges, by their keys."""
+    found = [(each, _between(state, each)) for each in state.features if each.kind == "arc"]
+    return tuple((each, bilge) for each, bilge in found if bilge is not None)
+
+
+def redraw_bilges(bilges: Sequence[tuple[Feature, Bilge]], vmap: SlopedMap) -> BilgeMap:
+    """Draw bilge arcs again for a map.
 
     Where the map scales all about a bilge alike, nothing is drawn: a similarity makes an arc of it,
     other ratios of the whole hull an oval. An image that lies farther from the new arc than a tenth
@@ -357,22 +382,21 @@ def bilge_map(state: HullState, vmap: SlopedMap) -> BilgeMap:
 
     Parameters
     ----------
-    state : HullState
-        The tables, before the map.
+    bilges : sequence of (Feature, Bilge)
+        Of the hull, before the map.
     vmap : SlopedMap
         The map.
     """
-    arcs = [_drawn(state, each, vmap) for each in state.features if each.kind == "arc"]
+    arcs = [_drawn(feature, bilge, vmap) for feature, bilge in bilges]
     found = sorted((each for each in arcs if each is not None), key=lambda arc: arc.x)
     # one arc a station: the shares along the ship need rising nodes
     alone = [arc for i, arc in enumerate(found) if i == 0 or arc.x != found[i - 1].x]
     return BilgeMap(vmap, vmap.jacobian, tuple(alone))
 
 
-def _drawn(state: HullState, feature: Feature, vmap: SlopedMap) -> BilgeArc | None:
-    """Draw one arc again; None if it is no bilge, need not be drawn again, or cannot."""
-    found = _between(state, feature)
-    if found is None or _even(found, vmap):
+def _drawn(feature: Feature, found: Bilge, vmap: SlopedMap) -> BilgeArc | None:
+    """Draw one arc again; None if it need not be drawn again, or cannot."""
+    if _even(found, vmap):
         return None
     new = _filleted(found, vmap)
     if new is None:
@@ -383,7 +407,7 @@ def _drawn(state: HullState, feature: Feature, vmap: SlopedMap) -> BilgeArc | No
     return arc if arc.most() <= _LARGEST * new.radius else None
 
 
-def _between(state: HullState, feature: Feature) -> _Between | None:
+def _between(state: HullState, feature: Feature) -> Bilge | None:
     """Take an arc as a bilge between a straight bottom and an upright straight side."""
     curve, normal = host_curve(state, feature), feature.normal
     if curve < 0 or normal is None or feature.centre is None or feature.radius is None:
@@ -404,7 +428,7 @@ def _between(state: HullState, feature: Feature) -> _Between | None:
     inner, upper = _run(xyz[first::-1, 1:], -ahead), _run(xyz[last:, 1:], np.array([0.0, 1.0]))
     if inner is None or upper is None or ahead[0] <= 0.0 or inner[0] < 0.0:
         return None
-    return _Between(x, BilgeFillet(y, z, r, low.copy(), high.copy()), inner, upper)
+    return Bilge(x, BilgeFillet(y, z, r, low.copy(), high.copy()), inner, upper)
 
 
 def _run(yz: FloatArray, ahead: FloatArray) -> FloatArray | None:
@@ -416,16 +440,13 @@ def _run(yz: FloatArray, ahead: FloatArray) -> FloatArray | None:
     return yz[last].copy() if last > 0 else None
 
 
-def _even(found: _Between, vmap: SlopedMap) -> bool:
+def _even(found: Bilge, vmap: SlopedMap) -> bool:
     """Tell whether a map scales all around a bilge alike: pure ratios of the hull do."""
-    old, part = found.bilge, np.linspace(0.0, 1.0, 6)
-    low, high = old.floor - old.radius, old.side + np.array([0.0, old.radius])
-    grid = np.meshgrid(low[0] + part * (high[0] - low[0]), low[1] + part * (high[1] - low[1]))
-    slope = vmap.jacobian(found.at(np.column_stack([each.ravel() for each in grid])))[:, 1:, 1:]
+    slope = vmap.jacobian(found.around)[:, 1:, 1:]
     return bool((slope == slope[0]).all())
 
 
-def _filleted(found: _Between, vmap: SlopedMap) -> BilgeFillet | None:
+def _filleted(found: Bilge, vmap: SlopedMap) -> BilgeFillet | None:
     """Round off the corner of the images of bottom and side; None if these are not straight."""
     old, half = found.bilge, 0.5 * (found.inner + found.bilge.floor)
     ends = np.array([found.inner, half, old.floor, old.side, found.upper])
@@ -443,7 +464,7 @@ def _filleted(found: _Between, vmap: SlopedMap) -> BilgeFillet | None:
         return None
 
 
-def _grown(found: _Between, vmap: SlopedMap) -> float:
+def _grown(found: Bilge, vmap: SlopedMap) -> float:
     """Give by what a map multiplies the radius: the root of what it does to areas."""
     slope = vmap.jacobian(np.array([[found.x, found.bilge.y, found.bilge.z]]))[0, 1:, 1:]
     return math.sqrt(float(slope[0, 0] * slope[1, 1] - slope[0, 1] * slope[1, 0]))

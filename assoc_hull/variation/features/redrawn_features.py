@@ -8,7 +8,7 @@ features where it leaves them so.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
 import attrs
@@ -18,12 +18,18 @@ from assoc_hull.edit.crossings.tangencies import PlaneTangency
 from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.recut.carried_points import TransformationState
 from assoc_hull.edit.space_map import SpaceMap
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.model.feature_geometry import host_curve
 from assoc_hull.model.features import Feature
 from assoc_hull.model.program.engine import is_compiled
 from assoc_hull.model.tables import HullState
-from assoc_hull.variation.features.redrawn_bilges import BilgeArc, BilgeMap, bilge_map
+from assoc_hull.variation.features.redrawn_bilges import (
+    Bilge,
+    BilgeArc,
+    BilgeMap,
+    bilges_of,
+    redraw_bilges,
+)
 from assoc_hull.variation.features.redrawn_circles import (
     GAP,
     JOIN,
@@ -35,14 +41,14 @@ from assoc_hull.variation.features.redrawn_circles import (
     tangent_point,
 )
 from assoc_hull.variation.fields.bounded_functions import BlendChain
-from assoc_hull.variation.fields.field import FieldRegion
-from assoc_hull.variation.fields.layers import Layer
-from assoc_hull.variation.fields.space_map import SlopedMap, VariationMap
+from assoc_hull.variation.fields.field import FieldRegion, StackedField
+from assoc_hull.variation.fields.layers import FieldLayer, Layer
+from assoc_hull.variation.fields.space_map import SlopedMap, VariationMap, moved_coordinates
 
 if TYPE_CHECKING:
     from assoc_hull.variation.features.compiled_map import CompiledMap
 
-__all__ = ["RedrawnFeatures", "redraw_features"]
+__all__ = ["HullFeatures", "RedrawnFeatures", "redraw_features"]
 
 _ROUND = 1e-6
 """A curve that is a circle leaves it by no more (m)."""
@@ -72,6 +78,8 @@ class RedrawnFeatures:
         What `map` draws circles anew after.
     layers : tuple of Layer
         What `bilges` draws bilges anew after.
+    plain : SlopedMap
+        These alone as a map, compiled where that is at hand.
     """
 
     map: FeatureMap
@@ -79,17 +87,26 @@ class RedrawnFeatures:
     hosts: tuple[int, ...]
     bilges: BilgeMap
     layers: tuple[Layer, ...]
+    plain: SlopedMap
 
     @cached_property
     def quick(self) -> SlopedMap:
         """What `map` is, compiled where that is at hand: the same bits, sooner."""
+        if not self.drawn and not isinstance(self.plain, VariationMap) and is_compiled():
+            return self.plain
         arcs = list(zip(self.bilges.arcs, self.bilges.shares(), strict=True))
         return _compiled(self.layers, arcs, self.map.circles, counts=True) or self.map
 
     @property
+    def drawn(self) -> bool:
+        """Whether anything is drawn anew."""
+        return len(self.map.circles) + len(self.bilges.arcs) > 0
+
+    @property
     def space(self) -> SpaceMap:
         """The map as a transformation uses it."""
-        return SpaceMap(self.quick, self.quick.jacobian)
+        moves = (True, True, True) if self.drawn else moved_coordinates(self.layers)
+        return SpaceMap(self.quick, self.quick.jacobian, moves)
 
     def regions(self) -> tuple[FieldRegion, ...]:
         """Give the boxes of the profile plane in which features change the map."""
@@ -134,9 +151,37 @@ def _compiled(
     return None if flat is None else CompiledMap(flat)
 
 
+@attrs.frozen(eq=False)
+class HullFeatures:
+    """The circles and bilges of a hull before any map: looked up once for many maps.
+
+    Attributes
+    ----------
+    circles : tuple of (Feature, SpaceCircle, int)
+        With the curve that each is.
+    bilges : tuple of (Feature, Bilge)
+        Arcs between a straight bottom and an upright side.
+    """
+
+    circles: tuple[tuple[Feature, SpaceCircle, int], ...]
+    bilges: tuple[tuple[Feature, Bilge], ...]
+
+    @classmethod
+    def of(cls, state: HullState) -> HullFeatures:
+        """Look them up in tables."""
+        circles = [
+            (each, SpaceCircle.of(
+                each.parameters["centre"], float(each.radius or 0.0), each.parameters["normal"]
+            ), host_curve(state, each))
+            for each in state.features if each.kind == "circle"
+        ]  # fmt: skip
+        return cls(tuple(circles), bilges_of(state))
+
+
 def redraw_features(
-    state: HullState, vmap: VariationMap, radii: Mapping[str, float] | None = None
-) -> RedrawnFeatures:
+    state: HullState, vmap: VariationMap, radii: Mapping[str, float] | None = None,
+    had: HullFeatures | None = None,
+) -> RedrawnFeatures:  # fmt: skip
     """Draw the circles and the bilge arcs of a hull anew for a map.
 
     Parameters
@@ -147,45 +192,52 @@ def redraw_features(
         The map.
     radii : mapping of str to float, m, or None
         Radii that are asked for, by the keys of features.
+    had : HullFeatures or None
+        What is to be drawn anew, if it is at hand.
 
     Raises
     ------
     BadInputError
         The map leaves a circle too far from any.
     """
-    features = [each for each in state.features if each.kind == "circle"]
+    had = HullFeatures.of(state) if had is None else had
     quick = _compiled(vmap.layers) or vmap
-    wanted = _of_cylinders(features, radii or {}, quick)
+    before = {each.key: (each, circle) for each, circle, _ in had.circles}
+    wanted = _of_cylinders(before, radii or {}, quick)
     drawn = {
-        each.key: _redrawn(each, quick, wanted.get(each.key))
-        for each in features
-        if each.key in wanted or not _stretched(each, quick)
+        key: _redrawn(*each, quick, wanted.get(key))
+        for key, each in before.items()
+        if key in wanted or not _stretched(each[1], quick)
     }
-    some = [each for each in changed_circles(list(drawn.values())) if not _even(each, quick)]
-    chosen = [each for each in features if drawn.get(each.key) in some]
-    bilges = bilge_map(state, quick)
+    plain = _straight_across(vmap.layers)
+    changed = changed_circles(list(drawn.values()))
+    some = [each for each in changed if not _even(each, quick, plain=plain)]
+    chosen = [(each.key, host) for each, _, host in had.circles if drawn.get(each.key) in some]
+    bilges = redraw_bilges(had.bilges, quick)
     return RedrawnFeatures(
-        FeatureMap(bilges, bilges.jacobian, tuple(drawn[each.key] for each in chosen)),
-        tuple(each.key for each in chosen),
-        tuple(host_curve(state, each) for each in chosen),
+        FeatureMap(bilges, bilges.jacobian, tuple(drawn[key] for key, _ in chosen)),
+        tuple(key for key, _ in chosen),
+        tuple(host for _, host in chosen),
         bilges,
         vmap.layers,
+        quick,
     )
 
 
 def _of_cylinders(
-    features: Sequence[Feature], radii: Mapping[str, float], vmap: SlopedMap
-) -> dict[str, float]:
+    before: Mapping[str, tuple[Feature, SpaceCircle]], radii: Mapping[str, float],
+    vmap: SlopedMap,
+) -> dict[str, float]:  # fmt: skip
     """Let a cylinder stay one: circles that are one with an asked one get its radius to the bit.
 
     They are those on its axis of its radius which the map gives what is asked for but for rounding,
     as the radius was measured on a curve.
     """
     found = dict(radii)
-    for asked in [each for each in features if each.key in radii]:
-        for each in features:
+    for asked in [each for each, _ in before.values() if each.key in radii]:
+        for each, circle in before.values():
             if each.key not in found and _one_cylinder(asked, each):
-                natural = _redrawn(each, vmap, None).after.radius
+                natural = _redrawn(each, circle, vmap, None).after.radius
                 if abs(natural - radii[asked.key]) <= _ROUND:
                     found[each.key] = radii[asked.key]
     return found
@@ -200,17 +252,35 @@ def _one_cylinder(one: Feature, other: Feature) -> bool:
     return not (away - float((away * normal).sum()) * normal).any()
 
 
-def _even(circle: RedrawnCircle, vmap: SlopedMap) -> bool:
+def _straight_across(layers: Sequence[Layer]) -> bool:
+    """Tell whether what layers do across the ship is linear: two breadths tell of all others."""
+    return all(
+        isinstance(layer, FieldLayer)
+        and all(not isinstance(each, StackedField) or each.tube is None for each in layer.fields)
+        for layer in layers
+    )
+
+
+@cache
+def _around(*, plain: bool) -> FloatArray:
+    """Give places of a cube about nought, (n, 3), from -1 to 1; of its two sides if `plain`."""
+    part = np.linspace(-1.0, 1.0, 15)
+    out = part[[0, -1]] if plain else part
+    found = np.stack(np.meshgrid(part, out, part, indexing="ij"), axis=-1).reshape(-1, 3)
+    freeze(found)
+    return found
+
+
+def _even(circle: RedrawnCircle, vmap: SlopedMap, *, plain: bool = False) -> bool:
     """Tell whether a circle is carried by a map that is affine in all its neighbourhood.
 
     Its curve is then the curve of before, scaled, as are those that meet it: put onto the circle
-    to the bit, points would leave the planes of their lines.
+    to the bit, points would leave the planes of their lines. Of a map that is `plain` across the
+    ship less has to be looked at.
     """
     if not circle.carried:
         return False
-    reach = (JOIN + 1.0) * circle.before.radius * np.linspace(-1.0, 1.0, 15)
-    grid = np.stack(np.meshgrid(reach, reach, reach, indexing="ij"), axis=-1).reshape(-1, 3)
-    grid = circle.before.centre + grid
+    grid = circle.before.centre + (JOIN + 1.0) * circle.before.radius * _around(plain=plain)
     # most maps that are not affine tell so at a few of these places already
     return all(
         bool((slope == slope[0]).all())
@@ -218,18 +288,17 @@ def _even(circle: RedrawnCircle, vmap: SlopedMap) -> bool:
     )
 
 
-def _stretched(feature: Feature, vmap: SlopedMap) -> bool:
+def _stretched(circle: SpaceCircle, vmap: SlopedMap) -> bool:
     """Tell whether a map stretches a circle so much, and evenly, that it is meant to be none."""
-    normal = np.array(feature.parameters["normal"])
-    slope = vmap.jacobian(np.array([feature.parameters["centre"]]))[0]
-    across = slope - np.outer(slope @ normal, normal)
+    slope = vmap.jacobian(circle.centre[None])[0]
+    across = slope - np.outer(slope @ circle.normal, circle.normal)
     size = np.linalg.svd(across, compute_uv=False)
     return bool(size[0] > _OBLATE * size[1])
 
 
-def _redrawn(feature: Feature, vmap: SlopedMap, radius: float | None) -> RedrawnCircle:
-    places = feature.parameters
-    before = SpaceCircle.of(places["centre"], float(feature.radius or 0.0), places["normal"])
+def _redrawn(
+    feature: Feature, before: SpaceCircle, vmap: SlopedMap, radius: float | None
+) -> RedrawnCircle:
     gap = max(GAP, 2.0 * feature.gap)
     return redraw_circle(feature.name, before, vmap, vmap.jacobian, radius=radius, gap=gap)
 

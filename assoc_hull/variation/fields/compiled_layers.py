@@ -12,6 +12,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.numeric.jit import jit
+from assoc_hull.model.program.compiled_program import read_only
 
 __all__ = ["blend", "blend_slope", "clipped", "map_layers", "set_slopes", "set_values"]
 
@@ -491,12 +492,15 @@ def _add_corner_slopes(
 @jit
 def _set_layer_slopes(
     code: IntArray, number: FloatArray, layer: int, p: FloatArray, m: int, found: FloatArray,
-    room: FloatArray, height: FloatArray, index: IntArray,
+    room: FloatArray, height: FloatArray, index: IntArray, unit: float,
 ) -> None:  # fmt: skip
-    """Set the Jacobians of a layer at the places of a block, by rows: (9, b)."""
+    """Set the Jacobians of a layer at the places of a block, by rows: (9, b).
+
+    The diagonal begins at `unit`: 1, or 0 for the derivatives of displacements alone.
+    """
     for k in range(9):
         for i in range(m):
-            found[k, i] = 1.0 if k % 4 == 0 else 0.0
+            found[k, i] = unit if k % 4 == 0 else 0.0
     kind = code[layer]
     if kind == 0:
         for k in range(code[layer + 1]):
@@ -586,7 +590,7 @@ def map_layers(
         for n in range(code[0]):
             layer = code[code[1] + n]
             if sloped:
-                _set_layer_slopes(code, number, layer, p, m, own, room, height, index)
+                _set_layer_slopes(code, number, layer, p, m, own, room, height, index, 1.0)
                 _chain(own, whole, m)
             if wanted or n + 1 < code[0]:
                 _move(code, number, layer, p, m, moved, room, height, index)
@@ -598,3 +602,31 @@ def map_layers(
             for i in range(m):
                 for k in range(9):
                     slope[begin + i, k // 3, k % 3] = whole[k, i]
+
+
+@jit
+def set_displacement_slopes(
+    code: IntArray, number: FloatArray, xyz: FloatArray, slope: FloatArray
+) -> None:
+    """Set the derivatives of what the first layer adds to places (n, 3), as (n, 3, 3)."""
+    slope[:] = 0.0
+    if code[0] == 0:
+        return
+    size = max(min(len(xyz), _BLOCK), 1)
+    p, room, own = np.empty((3, size)), np.empty((18, size)), np.empty((9, size))
+    height, index = np.empty((code[6], size)), np.empty((2, size), np.int64)
+    for begin in range(0, len(xyz), size):
+        m = min(size, len(xyz) - begin)
+        for i in range(m):
+            p[0, i], p[1, i], p[2, i] = xyz[begin + i, 0], xyz[begin + i, 1], xyz[begin + i, 2]
+        _set_layer_slopes(code, number, code[code[1]], p, m, own, room, height, index, 0.0)
+        for i in range(m):
+            for k in range(9):
+                slope[begin + i, k // 3, k % 3] = own[k, i]
+
+
+def displacement_slopes_at(code: IntArray, number: FloatArray, xyz: FloatArray) -> FloatArray:
+    """Give the derivatives of what the first layer adds to places (n, 3), as (n, 3, 3)."""
+    found = np.empty((*xyz.shape, 3))
+    set_displacement_slopes(code, number, read_only(np.ascontiguousarray(xyz, np.float64)), found)
+    return found

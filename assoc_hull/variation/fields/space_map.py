@@ -9,6 +9,7 @@ every outer one once the inner ones are solved.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Protocol
 
 import attrs
@@ -32,6 +33,7 @@ __all__ = [
     "SlopedMap",
     "VariationMap",
     "inverse_map",
+    "moved_coordinates",
     "solve_coordinates",
 ]
 
@@ -255,6 +257,21 @@ class SlopedMap(Protocol):
     def jacobian(self, xyz: FloatArray, /) -> FloatArray:
         """Give the derivatives of the places after by those before, (n, 3, 3)."""
         ...
+
+
+def moved_coordinates(layers: Sequence[Layer]) -> tuple[bool, bool, bool]:
+    """Tell whether layers may change x, y and z of places; those that are not known change all."""
+    found = set[str]()
+    for layer in layers:
+        if type(layer) is FieldLayer:
+            found |= {each.axis for each in layer.fields}
+        elif type(layer) is CornerLayer:
+            found |= {"y", "z"}
+        elif type(layer) is DeadriseLayer:
+            found.add("z")
+        else:
+            found |= {"x", "y", "z"}
+    return "x" in found, "y" in found, "z" in found
 
 
 @attrs.frozen(eq=False)

@@ -80,7 +80,8 @@ def compose_map(parent: Parent, asked: Mapping[str, float], layout: Layout) -> V
     main = main_layer(parent, asked, layout)
     if main is not None:
         layers.append(main)
-        parent = _scaled(parent, main, asked)
+        if any(CATALOGUE[name].lays is not None for name in asked):
+            parent = _scaled(parent, main, asked)
     local = [name for name in CATALOGUE if name not in (*_RAKE, *_BILGE)]
     for title, names in (("local fields", local), ("rake", _RAKE)):
         shares = _shares(parent, {name: asked[name] for name in names if name in asked}, layout)

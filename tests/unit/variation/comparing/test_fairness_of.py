@@ -11,7 +11,7 @@ from assoc_hull.geometry.curves import CurveData, SplineBatch
 from assoc_hull.geometry.fairness.combs import (
     comb_integrals,
     curvature_sign_changes,
-    greatest_curvatures,
+    sampled_curvatures,
 )
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.hull import Hull
@@ -51,7 +51,7 @@ def test_curvature_within_the_dead_band_has_no_sign() -> None:
     flat = wave(1e-3 * 100.0 / np.pi**2)
     assert curvature_sign_changes(flat, UP, 2e-3).tolist() == [0]
     assert curvature_sign_changes(flat, UP, 1e-4).tolist() == [3]
-    assert greatest_curvatures(flat, UP)[0] == pytest.approx(1e-3, rel=0.01)
+    assert sampled_curvatures(flat, UP).greatest()[0] == pytest.approx(1e-3, rel=0.01)
 
 
 def test_curves_of_a_batch_are_counted_apart() -> None:
@@ -67,7 +67,7 @@ def test_a_curve_without_a_plane_counts_nothing() -> None:
     normal = np.full((1, 3), np.nan)
     assert curvature_sign_changes(wave(0.5), normal, 0.0).tolist() == [0]
     assert comb_integrals(wave(0.5), normal).tolist() == [0.0]
-    assert greatest_curvatures(wave(0.5), normal).tolist() == [0.0]
+    assert sampled_curvatures(wave(0.5), normal).greatest().tolist() == [0.0]
 
 
 def test_comb_integral_of_a_parabola() -> None:
