@@ -14,7 +14,7 @@ import os
 import random
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache, partial
 from pathlib import Path
 
@@ -78,13 +78,12 @@ def _alone(name: str, parameter: str, value: float) -> bool:
     return True
 
 
-def draw_sets(name: str, count: int, seed: int) -> list[dict[str, float]]:
-    """Draw sets of changes, each of which is taken alone."""
+def draw_sets(name: str, count: int, seed: int) -> Iterator[dict[str, float]]:
+    """Draw sets of changes, each of which is taken alone, one after the other."""
     rng, hull, entries = random.Random(f"{name} {seed}"), hull_of(name), listed(name)
     length = hull.particulars.length
-    found = list[dict[str, float]]()
-    while len(found) < count:
-        size = 2 + len(found) % 6
+    for i in range(count):
+        size = 2 + i % 6
         chosen = dict[str, float]()
         for each in rng.sample(entries, len(entries)):
             if len(chosen) == size:
@@ -97,8 +96,7 @@ def draw_sets(name: str, count: int, seed: int) -> list[dict[str, float]]:
             high = 1e9 if each.high is None else each.high
             if low <= value <= high and _alone(name, each.name, value):
                 chosen[each.name] = value
-        found.append(chosen)
-    return found
+        yield chosen
 
 
 @attrs.frozen
@@ -153,17 +151,20 @@ def main() -> None:
     parser.add_argument("--hulls", nargs="*", default=list(HULLS), choices=HULLS)
     parser.add_argument("--reach", action="store_true", help="volume and LCB reached on top")
     given = parser.parse_args()
-    total = list[tuple[int, Outcome]]()
-    for name in given.hulls:
-        hull, mine = hull_of(name), list[tuple[int, Outcome]]()
-        for i, values in enumerate(draw_sets(name, given.count, given.seed)):
-            found = outcome(hull, values, **_reach(hull, values) if given.reach else {})
-            mine.append((len(values), found))
+    drawn = {name: draw_sets(name, given.count, given.seed) for name in given.hulls}
+    found = {name: list[tuple[int, Outcome]]() for name in given.hulls}
+    # hull by hull in turn: whatever was printed by some time is of all of them
+    for i in range(given.count):
+        for name, sets in drawn.items():
+            hull, values = hull_of(name), next(sets)
+            each = outcome(hull, values, **_reach(hull, values) if given.reach else {})
+            found[name].append((len(values), each))
             asked = ", ".join(f"{key}={value:.6g}" for key, value in values.items())
-            verdict = "good" if found.good else "TAKEN BUT WRONG" if found.taken else "refused"
-            print(f"{name} {i}: {verdict} {asked} | {found}", flush=True)
+            verdict = "good" if each.good else "TAKEN BUT WRONG" if each.taken else "refused"
+            print(f"{name} {i}: {verdict} {asked} | {each}", flush=True)
+    for name, mine in found.items():
         _tell(name, mine)
-        total += mine
+    total = [each for mine in found.values() for each in mine]
     _tell("all", total)
     if any(each.taken and not each.good for _, each in total):
         sys.exit(1)

@@ -32,6 +32,7 @@ from assoc_hull.variation.features.redrawn_circles import (
     SpaceCircle,
     changed_circles,
     redraw_circle,
+    same_area,
     tangent_point,
 )
 from assoc_hull.variation.fields.bounded_functions import BlendChain
@@ -178,17 +179,22 @@ def _of_cylinders(
 ) -> dict[str, float]:
     """Let a cylinder stay one: circles that are one with an asked one get its radius to the bit.
 
-    They are those on its axis of its radius which the map gives what is asked for but for rounding,
-    as the radius was measured on a curve.
+    They are those on its axis of its radius which the map makes as large as that one. It need not
+    be what is asked for: a map of ratios makes all of them too small alike.
     """
     found = dict(radii)
     for asked in [each for each in features if each.key in radii]:
+        size = _same_area(asked, vmap)
         for each in features:
-            if each.key not in found and _one_cylinder(asked, each):
-                natural = _redrawn(each, vmap, None).after.radius
-                if abs(natural - radii[asked.key]) <= _ROUND:
-                    found[each.key] = radii[asked.key]
+            same = each.key not in found and _one_cylinder(asked, each)
+            if same and abs(_same_area(each, vmap) - size) <= _ROUND:
+                found[each.key] = radii[asked.key]
     return found
+
+
+def _same_area(feature: Feature, vmap: SlopedMap) -> float:
+    """Give the radius of a circle of as much area as the map gives one, m."""
+    return same_area(_circle(feature), vmap.jacobian)
 
 
 def _one_cylinder(one: Feature, other: Feature) -> bool:
@@ -228,10 +234,15 @@ def _stretched(feature: Feature, vmap: SlopedMap) -> bool:
 
 
 def _redrawn(feature: Feature, vmap: SlopedMap, radius: float | None) -> RedrawnCircle:
-    places = feature.parameters
-    before = SpaceCircle.of(places["centre"], float(feature.radius or 0.0), places["normal"])
     gap = max(GAP, 2.0 * feature.gap)
-    return redraw_circle(feature.name, before, vmap, vmap.jacobian, radius=radius, gap=gap)
+    return redraw_circle(
+        feature.name, _circle(feature), vmap, vmap.jacobian, radius=radius, gap=gap
+    )
+
+
+def _circle(feature: Feature) -> SpaceCircle:
+    places = feature.parameters
+    return SpaceCircle.of(places["centre"], float(feature.radius or 0.0), places["normal"])
 
 
 def _as_drawn(feature: Feature, centre: Sequence[float], radius: float) -> Feature:
