@@ -10,7 +10,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.variation.fields.bounded_functions import BlendChain
 from assoc_hull.variation.fields.field import AffinePiece, StackedField, level_boundaries
 from assoc_hull.variation.parameters.field_layout import Layout
-from assoc_hull.variation.parameters.paper_regions import Regions, regions_of
+from assoc_hull.variation.parameters.paper_regions import PaperRegions, regions_of
 from assoc_hull.variation.parameters.parent import Parent
 
 __all__ = ["bossing_ratios", "shaft_ratios"]
@@ -74,7 +74,7 @@ def bossing_ratios(
     return out, layout.over(name, anchors, fade)
 
 
-def _centre(regions: Regions, h: float, r: float) -> float:
+def _centre(regions: PaperRegions, h: float, r: float) -> float:
     """Give where ratios of the shaft are full, which is within its bossing, m."""
     found = regions.heights["Hshaft"]
     if r and abs(found - h) > r:

@@ -18,7 +18,7 @@ from assoc_hull.variation.fields.bounded_functions import BlendChain
 from assoc_hull.variation.parameters.field_layout import HEIGHTS, LENGTHS, Layout
 from assoc_hull.variation.parameters.parent import Parent
 
-__all__ = ["Regions", "regions_of"]
+__all__ = ["PaperRegions", "regions_of"]
 
 Anchor = tuple[str, float, float]
 """Name, height and change, m."""
@@ -39,7 +39,7 @@ _MAY_MEET = {("BX3", "EX3"), ("BX1", "BX3"), ("BX0", "BX2"), ("EX3", "EX1"), ("E
 
 
 @attrs.frozen
-class Regions:
+class PaperRegions:
     """Heights above the base line and places from AP, m, by their names.
 
     Attributes
@@ -126,7 +126,7 @@ class Regions:
         return BlendChain.through(nodes, values, self.layout.curve, name)
 
 
-def regions_of(parent: Parent, layout: Layout) -> Regions | None:
+def regions_of(parent: Parent, layout: Layout) -> PaperRegions | None:
     """Give the regions of a layout, the rest read off the parent; None where none is named.
 
     Raises
@@ -153,7 +153,7 @@ def regions_of(parent: Parent, layout: Layout) -> Regions | None:
     if not given:
         return None
     every = _of_hull(parent, layout) | given
-    found = Regions(
+    found = PaperRegions(
         {name: every[name] for name in HEIGHTS if name in every},
         {name: every[name] for name in LENGTHS}, frozenset(given), layout,
     )  # fmt: skip
