@@ -128,13 +128,15 @@ _ON_PLANES = {
 def sets_on_planes(name: str) -> Iterator[dict[str, float]]:
     """Give values that lie exactly on a plane of the net, the nearest, alone and two together."""
     table = hull_of(name).document.state.lines
-    level = np.isfinite(table.offset) & table.alive & table.planar
+    live = hull_of(name).document.state.live("lines")
+    live = live[table.planar.data[live]]
+    offset, normal = table.offset.data[live], table.normal.data[live]
     found = list[dict[str, float]]()
     present = {each.name: each.value or 0.0 for each in listed(name)}
     for parameter, axis in _ON_PLANES.items():
         if parameter not in present:
             continue
-        planes = table.offset[level & (np.abs(table.normal[:, axis]) == 1.0)]
+        planes = offset[np.abs(normal[:, axis]) == 1.0]
         now, radius = present[parameter], present.get("bossing_radius", 0.0)
         found.append({parameter: _nearest(planes, now)})
         if parameter == "shaft_height" and radius:
