@@ -44,7 +44,7 @@ HULLS: Mapping[str, Callable[[], ah.Hull]] = {
 """The hulls by name."""
 
 _SIZES = ("length", "breadth", "draught", "depth", "deck_height")
-_MET = 1e-6
+_MET, _REACHED = 1e-6, 1e-8
 
 
 def _dtc() -> ah.Hull:
@@ -188,6 +188,13 @@ def outcome(hull: ah.Hull, values: Mapping[str, float], **more: object) -> Outco
     ) if any(not name.endswith("_shift") for name in values) else 0.0  # fmt: skip
     # Lines of a hull that a definition made are its own from the first edit on.
     sound = all("detached" in str(each) for each in varied.hull.check())
+    targets = more.get("reach")
+    if isinstance(targets, Mapping):
+        there = varied.hull.hydrostatics()
+        sound &= all(
+            abs(getattr(there, key) - value) <= _REACHED * abs(value)
+            for key, value in targets.items()
+        )
     varied.hull.undo()
     sound &= varied.hull.fingerprint == hull.fingerprint
     return Outcome(
