@@ -26,7 +26,10 @@ from assoc_hull.variation.parameters.parent import Parent, parent_of
 PAGE = Path(__file__).resolve().parent / "variation.md"
 MARK = "<!-- Made by `python docs/named_parameters.py`; edit nothing from here ... -->\n"
 END = "<!-- ... to here. -->\n"
-REACHES = [field.name for field in attrs.fields(Layout) if field.name != "blend"]
+REACHES = [
+    field.name for field in attrs.fields(Layout)
+    if field.name != "blend" and field.default is not None
+]  # fmt: skip
 
 
 def tables() -> str:

@@ -1,10 +1,14 @@
 """Random sets of everyday parameters on several hulls: how many `vary` takes, and how well.
 
     python -m tests.variation_sets [--seed 1] [--count 60] [--hulls carrier ...] [--reach]
+    python -m tests.variation_sets --clashes [--seed 1] [--count 4] [--hulls ...]
+    python -m tests.variation_sets --planes [--hulls ...]
 
 A set has two to seven parameters, of those that the list of a hull gives a value for, no two of
 them one number. Each change is one that is taken alone. What is taken must be met to 1e-6,
-`check` must be empty, and undo must bring back the parent to the bit.
+`check` must be empty, and undo must bring back the parent to the bit. Pairs that are one number
+are drawn apart; each must be refused by both names. Last, values that put a place of the hull
+exactly onto a plane of its net, or an end of a feature onto one.
 """
 
 from __future__ import annotations
@@ -14,14 +18,17 @@ import os
 import random
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, partial
+from itertools import pairwise, zip_longest
 from pathlib import Path
 
 import attrs
+import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.carrying.admissible_values import ListedParameter, list_parameters
 from tests.foreign_hulls import data_folder
 
@@ -37,7 +44,7 @@ HULLS: Mapping[str, Callable[[], ah.Hull]] = {
 """The hulls by name."""
 
 _SIZES = ("length", "breadth", "draught", "depth", "deck_height")
-_MET = 1e-6
+_MET, _REACHED = 1e-6, 1e-8
 
 
 def _dtc() -> ah.Hull:
@@ -78,13 +85,12 @@ def _alone(name: str, parameter: str, value: float) -> bool:
     return True
 
 
-def draw_sets(name: str, count: int, seed: int) -> list[dict[str, float]]:
-    """Draw sets of changes, each of which is taken alone."""
+def draw_sets(name: str, count: int, seed: int) -> Iterator[dict[str, float]]:
+    """Draw sets of changes, each of which is taken alone, one after the other."""
     rng, hull, entries = random.Random(f"{name} {seed}"), hull_of(name), listed(name)
     length = hull.particulars.length
-    found = list[dict[str, float]]()
-    while len(found) < count:
-        size = 2 + len(found) % 6
+    for i in range(count):
+        size = 2 + i % 6
         chosen = dict[str, float]()
         for each in rng.sample(entries, len(entries)):
             if len(chosen) == size:
@@ -97,8 +103,53 @@ def draw_sets(name: str, count: int, seed: int) -> list[dict[str, float]]:
             high = 1e9 if each.high is None else each.high
             if low <= value <= high and _alone(name, each.name, value):
                 chosen[each.name] = value
-        found.append(chosen)
-    return found
+        yield chosen
+
+
+def draw_clashes(name: str, count: int, seed: int) -> Iterator[dict[str, float]]:
+    """Draw pairs that are one number, each with a small change."""
+    rng, entries = random.Random(f"clash {name} {seed}"), listed(name)
+    by_name = {each.name: each for each in entries}
+    pairs = [
+        (each, by_name[other]) for each in entries for other in each.conflicts if other in by_name
+    ]
+    for _ in range(count):
+        pair = rng.choice(pairs)
+        yield {each.name: (each.value or 0.0) * (1.0 + rng.uniform(-0.01, 0.01)) for each in pair}
+
+
+_ON_PLANES = {
+    "shaft_height": 2, "transom_height": 2, "bulb_height": 2, "transom_half_breadth": 1,
+    "bulb_half_breadth": 1, "flat_of_bottom": 1, "parallel_body_start": 0, "parallel_body_end": 0,
+}  # fmt: skip
+"""The axis along which a parameter moves the place that it is measured at."""
+
+
+def sets_on_planes(name: str) -> Iterator[dict[str, float]]:
+    """Give values that lie exactly on a plane of the net, the nearest, alone and two together."""
+    table = hull_of(name).document.state.lines
+    live = hull_of(name).document.state.live("lines")
+    live = live[table.planar.data[live]]
+    offset, normal = table.offset.data[live], table.normal.data[live]
+    found = list[dict[str, float]]()
+    present = {each.name: each.value or 0.0 for each in listed(name)}
+    for parameter, axis in _ON_PLANES.items():
+        if parameter not in present:
+            continue
+        planes = offset[np.abs(normal[:, axis]) == 1.0]
+        now, radius = present[parameter], present.get("bossing_radius", 0.0)
+        found.append({parameter: _nearest(planes, now)})
+        if parameter == "shaft_height" and radius:
+            found.append({parameter: _nearest(planes - radius, now)})
+            found.append({"bossing_radius": _nearest(planes - now, radius)})
+    pairs = [one | other for one, other in pairwise(found)]
+    yield from found
+    yield from (each for each in pairs if len(each) > 1)
+
+
+def _nearest(planes: FloatArray, now: float) -> float:
+    others = planes[np.abs(planes - now) > _MET]
+    return float(others[np.abs(others - now).argmin()])
 
 
 @attrs.frozen
@@ -137,6 +188,13 @@ def outcome(hull: ah.Hull, values: Mapping[str, float], **more: object) -> Outco
     ) if any(not name.endswith("_shift") for name in values) else 0.0  # fmt: skip
     # Lines of a hull that a definition made are its own from the first edit on.
     sound = all("detached" in str(each) for each in varied.hull.check())
+    targets = more.get("reach")
+    if isinstance(targets, Mapping):
+        there = varied.hull.hydrostatics()
+        sound &= all(
+            abs(getattr(there, key) - value) <= _REACHED * abs(value)
+            for key, value in targets.items()
+        )
     varied.hull.undo()
     sound &= varied.hull.fingerprint == hull.fingerprint
     return Outcome(
@@ -151,21 +209,51 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=60, help="sets a hull")
     parser.add_argument("--hulls", nargs="*", default=list(HULLS), choices=HULLS)
+    parser.add_argument("--clashes", action="store_true", help="pairs that are one number")
+    parser.add_argument("--planes", action="store_true", help="values exactly on planes")
     parser.add_argument("--reach", action="store_true", help="volume and LCB reached on top")
     given = parser.parse_args()
-    total = list[tuple[int, Outcome]]()
-    for name in given.hulls:
-        hull, mine = hull_of(name), list[tuple[int, Outcome]]()
-        for i, values in enumerate(draw_sets(name, given.count, given.seed)):
-            found = outcome(hull, values, **_reach(hull, values) if given.reach else {})
-            mine.append((len(values), found))
+    if given.clashes:
+        _print_clashes(given.hulls, given.count, given.seed)
+        return
+    drawn = {
+        name: sets_on_planes(name) if given.planes else draw_sets(name, given.count, given.seed)
+        for name in given.hulls
+    }
+    found = {name: list[tuple[int, Outcome]]() for name in given.hulls}
+    # hull by hull in turn: whatever was printed by some time is of all of them
+    for i, each_set in enumerate(zip_longest(*drawn.values())):
+        for name, values in zip(drawn, each_set, strict=True):
+            if values is None:
+                continue
+            hull = hull_of(name)
+            each = outcome(hull, values, **_reach(hull, values) if given.reach else {})
+            found[name].append((len(values), each))
             asked = ", ".join(f"{key}={value:.6g}" for key, value in values.items())
-            verdict = "good" if found.good else "TAKEN BUT WRONG" if found.taken else "refused"
-            print(f"{name} {i}: {verdict} {asked} | {found}", flush=True)
+            verdict = "good" if each.good else "TAKEN BUT WRONG" if each.taken else "refused"
+            print(f"{name} {i}: {verdict} {asked} | {each}", flush=True)
+    for name, mine in found.items():
         _tell(name, mine)
-        total += mine
+    total = [each for mine in found.values() for each in mine]
     _tell("all", total)
     if any(each.taken and not each.good for _, each in total):
+        sys.exit(1)
+
+
+def _print_clashes(hulls: Sequence[str], count: int, seed: int) -> None:
+    """Ask for pairs that are one number, and tell which are refused by both names."""
+    asked, named = 0, 0
+    for name in hulls:
+        hull = hull_of(name)
+        before = hull.fingerprint
+        for values in draw_clashes(name, count, seed):
+            found = outcome(hull, values)
+            both = not found.taken and all(f"'{each}'" in found.words for each in values)
+            both &= hull.fingerprint == before
+            asked, named = asked + 1, named + both
+            print(f"{name}: {'refused by both' if both else 'WRONG'} {values} | {found.words}")
+    print(f"== {named} of {asked} refused by both names")
+    if named < asked:
         sys.exit(1)
 
 

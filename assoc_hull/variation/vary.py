@@ -29,6 +29,8 @@ from assoc_hull.variation.earlier_values import left_values, values_before, valu
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
+from assoc_hull.variation.parameters.field_layout import Layout, Share
+from assoc_hull.variation.parameters.paper_regions import regions_of
 from assoc_hull.variation.parameters.parameter_fields import shift_terminals
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import Parent
@@ -40,7 +42,9 @@ __all__ = [
     "Target",
     "VariationReport",
     "also_changed",
+    "composed_of",
     "folds_outside",
+    "moved_by_ratios",
     "shifted_without_body",
     "vary_document",
     "went_along",
@@ -137,6 +141,71 @@ def shifted_without_body(
     where = f"at {start:.6g} m" if start == end else f"from {start:.6g} to {end:.6g} m"
     what = "the largest station stands" if start == end else "the two largest stations stand"
     return (f"no parallel middle body: {what} for it, {where}",)
+
+
+_MORE = 1.05
+"""What moves by so many times more than was asked is told."""
+
+
+def moved_by_ratios(
+    parent: Parent, xyz: FloatArray, asked: Mapping[str, float], layout: Layout
+) -> tuple[str, ...]:
+    """Give notes on the regions of the paper's form, and on what its ratios move besides.
+
+    A ratio multiplies what lies farther out than its place by as much: a small radius that grows
+    by much has a large one. None for other forms.
+
+    Parameters
+    ----------
+    parent : Parent
+    xyz : (n, 3), m
+        Places of the hull.
+    asked : mapping of str to float
+        Values of named parameters.
+    layout : Layout
+    """
+    if layout.blend != "paper":
+        return ()
+    regions = regions_of(parent, layout)
+    told = [] if regions is None else [str(regions)]
+    for name, value in asked.items():
+        lays = CATALOGUE[name].lays
+        share = None if lays is None or name not in _RATIOS else lays(parent, value, layout)
+        if isinstance(share, Share) and share.change:
+            told += _beside(share, xyz)
+    return tuple(told)
+
+
+_RATIOS = (
+    "shaft_height", "bossing_radius", "transom_height", "transom_half_breadth", "bulb_height",
+    "bulb_half_breadth",
+)  # fmt: skip
+"""Parameters whose fields are ratios of what they change."""
+
+
+def _beside(share: Share, xyz: FloatArray) -> list[str]:
+    """Say how large the ratio of a share is, and by how much it moves what lies round it."""
+    moved = np.zeros_like(xyz)
+    for field in share.fields:
+        moved[:, "xyz".index(field.axis)] += field.displacement(xyz)
+    size = np.sqrt((moved * moved).sum(axis=1))
+    most = int(size.argmax())
+    own = float(share.places[0, "xyz".index(share.axis)])
+    if size[most] <= _MORE * abs(share.change) or not own:
+        return []
+    x, y, z = xyz[most].tolist()
+    return [
+        f"{share.name} asks for {share.change:.4g} m, a ratio of {1.0 + share.change / own:.4g}, "
+        f"which moves what lies round it by up to {size[most]:.4g} m, at "
+        f"({x:.3f}, {y:.3f}, {z:.3f}) m"
+    ]
+
+
+def composed_of(maps: int, layout: Layout) -> tuple[str, ...]:
+    """Give a note where several maps of ratios were composed, which is no map of ratios."""
+    if layout.blend != "paper" or maps < 2:
+        return ()
+    return (f"{maps} maps of ratios one after the other: together they are no one map of ratios",)
 
 
 # --------------------------------------------------------------------------------------
@@ -256,6 +325,9 @@ def vary_document(
                 )
         room.check(ask.values)
         levels = edit.state.lines.offset.data.copy()
+        beside = moved_by_ratios(
+            parent, edit.state.rows.xyz[edit.state.live("rows")], ask.values, ask.layout
+        )
         found, fairness = choose_plan(edit, room, ask)
         now = present_values(measure_all(edit.state), ask.layout)
         reached = {
@@ -277,7 +349,8 @@ def vary_document(
     )
     carried, whole = found.carry.carried, found.carry.map
     notes = (
-        *shifted_without_body(parent, found.values), *beyond, *along,
+        *shifted_without_body(parent, found.values), *beside,
+        *composed_of(len(carried), ask.layout), *beyond, *along,
         *also_changed(was, now, found.values), *left, *unfair_lines(fairness),
     )  # fmt: skip
     drivers = [each.applied.drivers for each in carried]

@@ -15,7 +15,8 @@ import numpy as np
 
 from assoc_hull.edit.checks.finding import Finding, row_finding
 from assoc_hull.edit.checks.shape_findings import bounded
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.edit.crossings.tangencies import runs_along_tangency
+from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import tangents
 from assoc_hull.model.kinds import Role, Sort
@@ -267,31 +268,42 @@ def _against(generating: tuple[bool, bool], role: Role) -> str:
 
 
 def _unmade(state: HullState, book: AddressBook) -> Iterator[Finding]:
-    """Curves of associated groups that meet and have no crossing there."""
+    """Curves of associated groups that meet and have no crossing there.
+
+    Along a touch there is none to be made: where the two pass one another rounding would say.
+    """
     open_, seen = _latent_meetings(state), set[tuple[int, int]]()
-    for (curve, line), places in sorted(open_.items()):
+    for (curve, line), spots in sorted(open_.items()):
         for other in state.lines.curves[line]:
             back = open_.get((other, state.line_of(curve)))
             pair = (min(curve, other), max(curve, other))
             if back is None or pair in seen:
                 continue
             seen.add(pair)
-            away = np.abs(places[:, None, :] - back[None, :, :]).max(axis=2)
+            places, theirs = (
+                state.curves.meets[each].xyz[some] for each, some in ((curve, spots), (other, back))
+            )
+            away = np.abs(places[:, None, :] - theirs[None, :, :]).max(axis=2)
             for i in np.flatnonzero(away.min(axis=1) <= state.tolerances.coincident).tolist():
+                there = int(back[away[i].argmin()])
+                if runs_along_tangency(state, curve, int(spots[i])) or runs_along_tangency(
+                    state, other, there
+                ):
+                    continue
                 x, y, z = places[i].tolist()
                 name = f"{book.curve_name(pair[0])} x {book.curve_name(pair[1])}"
                 text = "they meet there and have no crossing: dissociate, and associate again"
                 yield Finding("association", name, (x, y, z), None, text)
 
 
-def _latent_meetings(state: HullState) -> dict[tuple[int, int], FloatArray]:
-    """Give the places (k, 3), m, at which curves meet planes of lines without a crossing."""
-    found: dict[tuple[int, int], FloatArray] = {}
+def _latent_meetings(state: HullState) -> dict[tuple[int, int], IntArray]:
+    """Give the intersections of curves with planes of lines that are of no crossing, by number."""
+    found: dict[tuple[int, int], IntArray] = {}
     for curve in state.live("curves").tolist():
         meets = state.curves.meets[curve]
         latent = (meets.row < 0) & np.isfinite(meets.xyz).all(axis=1)
         for line in np.unique(meets.line[latent]).tolist():
-            found[curve, line] = meets.xyz[latent & (meets.line == line)]
+            found[curve, line] = np.flatnonzero(latent & (meets.line == line))
     return found
 
 

@@ -282,6 +282,7 @@ def _points(work: TransformationState, curve: int) -> DefiningPoints:
     work.watched -= set(order)
     loose = loose_points(work, curve, order)
     order = [row for row in order if row not in set(loose)]
+    _refuse_doubled(work, curve, order)
     new = [row for _, row in work.contacts if curve in state.rows.curve[row]]
     # Those that are ends stand in the order already.
     new = [row for row in new if row not in work.new_ends.values()]
@@ -305,6 +306,21 @@ def _points(work: TransformationState, curve: int) -> DefiningPoints:
     choose_fair_points(work, curve, found, options)
     round_turns(work, curve, found)
     return found
+
+
+def _refuse_doubled(work: TransformationState, curve: int, rows: list[int]) -> None:
+    """Refuse points of a follower that have come together: its plane touches the hull there."""
+    places = work.value[rows]
+    near = ((places[:, None] - places[None]) ** 2).sum(axis=2)
+    near[np.tril_indices(len(rows))] = np.inf
+    doubled = np.argwhere(near <= work.state.tolerances.coincident**2)
+    if len(doubled):
+        name = work.state.lines.name[work.state.line_of(curve)]
+        x, y, z = places[doubled[0, 0]].tolist()
+        raise BadInputError(
+            f"two points of {name} come to lie in one place, ({x:.3f}, {y:.3f}, {z:.3f}) m: its "
+            "plane touches the hull there", "in transform", "ask for a little more or less",
+        )  # fmt: skip
 
 
 def _smooth(

@@ -33,6 +33,7 @@ __all__ = [
     "directions_to_add",
     "distance_fade",
     "redraw_circle",
+    "same_area",
     "tangent_point",
 ]
 
@@ -218,15 +219,15 @@ def redraw_circle(
     name = text(name, "name", "in a circle")
     where = f"of the feature '{name}'"
     middle = image(before.centre[None])[0] if centre is None else place(centre, "centre", where)
-    size = _same_area(before, slope) if radius is None else positive(radius, "radius", where)
+    size = same_area(before, slope) if radius is None else positive(radius, "radius", where)
     after = SpaceCircle.of(middle, size, before.normal)
     found = RedrawnCircle(name, before, after, image, slope, gap)
     _refuse_far(found)
     return found
 
 
-def _same_area(circle: SpaceCircle, slope: _Map) -> float:
-    """Give the radius of a circle of as much area as the image has, to first order."""
+def same_area(circle: SpaceCircle, slope: _Map) -> float:
+    """Give the radius (m) of a circle of as much area as the image has, to first order."""
     both = np.stack(_across(*circle.normal.tolist()))
     part = both @ slope(circle.centre[None])[0] @ both.T
     area = abs(float(part[0, 0] * part[1, 1] - part[0, 1] * part[1, 0]))

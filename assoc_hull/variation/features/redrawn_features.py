@@ -38,6 +38,7 @@ from assoc_hull.variation.features.redrawn_circles import (
     SpaceCircle,
     changed_circles,
     redraw_circle,
+    same_area,
     tangent_point,
 )
 from assoc_hull.variation.fields.bounded_functions import BlendChain
@@ -230,16 +231,16 @@ def _of_cylinders(
 ) -> dict[str, float]:  # fmt: skip
     """Let a cylinder stay one: circles that are one with an asked one get its radius to the bit.
 
-    They are those on its axis of its radius which the map gives what is asked for but for rounding,
-    as the radius was measured on a curve.
+    They are those on its axis of its radius which the map makes as large as that one. It need not
+    be what is asked for: a map of ratios makes all of them too small alike.
     """
     found = dict(radii)
-    for asked in [each for each, _ in before.values() if each.key in radii]:
+    for asked, round_asked in [each for each in before.values() if each[0].key in radii]:
+        size = same_area(round_asked, vmap.jacobian)
         for each, circle in before.values():
-            if each.key not in found and _one_cylinder(asked, each):
-                natural = _redrawn(each, circle, vmap, None).after.radius
-                if abs(natural - radii[asked.key]) <= _ROUND:
-                    found[each.key] = radii[asked.key]
+            same = each.key not in found and _one_cylinder(asked, each)
+            if same and abs(same_area(circle, vmap.jacobian) - size) <= _ROUND:
+                found[each.key] = radii[asked.key]
     return found
 
 

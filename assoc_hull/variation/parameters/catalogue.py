@@ -15,6 +15,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.layers import Layer, scaled_layer
 from assoc_hull.variation.parameters import (
+    bulb_fields,
     frame_fields,
     parameter_fields,
     waterline_fields,
@@ -53,7 +54,7 @@ class NamedParameter:
     ----------
     name, short : str
         In full, and as a formula has it.
-    unit : {"m", "deg", "-"}
+    unit : {"m", "m2", "deg", "-"}
     meaning : str
         What is measured; x from AP, z from the base line.
     lays : callable or None
@@ -173,6 +174,22 @@ def _entries() -> tuple[NamedParameter, ...]:
             "greatest half-breadth at the FP below T",
             parameter_fields.bulb_half_breadth_field,
             "ratio of y from the tip down",
+        ),
+        entry(
+            "bulb_area",
+            "A_BT",
+            "m2",
+            "area of the section at FP below T, both sides",
+            bulb_fields.bulb_area_field,
+            "ratio of y from the tip down",
+        ),
+        entry(
+            "bulb_section_height",
+            "h_B",
+            "m",
+            "height of the centre of area of the section at FP below T",
+            bulb_fields.bulb_section_height_field,
+            "ratios of y below and above, the area at FP kept",
         ),
         entry(
             "bulb_length",

@@ -39,6 +39,7 @@ _CLASHES = (
     ("bilge_radius", "flat_of_bottom", "a bilge of one radius ends where the flat bottom does"),
     ("bilge_radius", "deadrise_deg", "both turn the bilge"),
     ("flat_of_bottom", "deadrise_deg", "a bottom with deadrise is not flat"),
+    ("bulb_area", "bulb_half_breadth", "both widen the section at FP"),
 )
 _BODY = ("parallel_body_start", "parallel_body_end", "parallel_body_length")
 _DECKS = ("depth", "deck_height", "both set the deck edge amidships")
@@ -196,6 +197,12 @@ def _clash(
 ) -> BadInputError:  # fmt: skip
     """Name the two parameters that act most alike."""
     if len(shares) < 2:
+        part = shares[0].effect(shares[0]) / shares[0].change
+        if part:
+            return BadInputError(
+                f"the field of '{shares[0].name}' gives {100.0 * part:.3g} % of the change where "
+                "that is measured", "in vary", "let it be full nearer to there",
+            )  # fmt: skip
         return BadInputError(
             f"'{shares[0].name}' cannot use a ratio: its anchor equals its pivot", "in vary",
             "use a shift",

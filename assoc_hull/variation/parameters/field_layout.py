@@ -13,7 +13,7 @@ from typing import Any, Literal
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import positive, shown
+from assoc_hull.arguments import number, positive, shown
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.anchor_fields import hat_field, ratio_field
@@ -22,9 +22,16 @@ from assoc_hull.variation.fields.field import Axis, StackedField
 from assoc_hull.variation.fields.layers import Rake
 
 __all__ = [
+    "HEIGHTS",
+    "LENGTHS",
     "Layout",
     "Share",
 ]
+
+
+HEIGHTS = ("Hbase", "Hbilge", "Hshaft", "Htransom", "Hdraft", "Hmax", "Hbulb")
+LENGTHS = ("BX0", "BX1", "BX2", "BX3", "EX0", "EX1", "EX2", "EX3")
+"""Names of regions: those of figure 1 of the paper; `Hbulb` and `EX0` to `EX3` are ours."""
 
 
 @attrs.frozen
@@ -77,6 +84,17 @@ class Layout:
         Where ``deck_height`` holds: amidships, the whole deck with it, or at a perpendicular.
     shift : str
         Shape of ``fore_shift`` and ``aft_shift``.
+    Hbase, Hbilge, Hshaft, Htransom, Hdraft, Hmax : float or None, m
+        With ``blend="paper"``, heights of its regions: of base line, upper end of the bilge, shaft,
+        lowest point of the transom, design draught, and of the top. Once a region is named all are
+        boundaries at which ratios are 1, but for that of what is changed; None: as the hull has it.
+    BX0, BX1, BX2, BX3 : float or None, m
+        Places from AP: a change at BX0, the transom, reaches as far as BX1, one at BX3, where the
+        parallel body begins, as far as BX2.
+    Hbulb, EX0, EX1, EX2, EX3 : float or None, m
+        The same scheme for the fore body, which the paper does not have: height of the bulb's tip;
+        a change at EX0, the FP, reaches as far as EX1, one at EX3, where the parallel body ends, as
+        far as EX2.
 
     Examples
     --------
@@ -104,6 +122,21 @@ class Layout:
     draught_top: float = 2.4
     deck: Literal["midship", "fore", "aft"] = "midship"
     shift: Literal["c1", "c2", "end", "half", "lackenby"] = "c2"
+    Hbase: float | None = None
+    Hbilge: float | None = None
+    Hshaft: float | None = None
+    Htransom: float | None = None
+    Hdraft: float | None = None
+    Hmax: float | None = None
+    Hbulb: float | None = None
+    BX0: float | None = None
+    BX1: float | None = None
+    BX2: float | None = None
+    BX3: float | None = None
+    EX0: float | None = None
+    EX1: float | None = None
+    EX2: float | None = None
+    EX3: float | None = None
 
     @property
     def curve(self) -> Blend:
@@ -145,7 +178,14 @@ class Layout:
             if name not in known:
                 raise UnknownNameError("reach of a field", str(name), tuple(known))
             _check(name, value)
-        return cls(**dict(given))
+        found = cls(**dict(given))
+        named = [name for name in (*HEIGHTS, *LENGTHS) if getattr(found, name) is not None]
+        if named and found.blend != "paper":
+            raise BadInputError(
+                f"{named[0]} is a region of the paper, and the blend is {found.blend!r}", "in vary",
+                f"give blend='paper' as well, or leave {', '.join(named)} out",
+            )  # fmt: skip
+        return found
 
 
 _WORDS = {
@@ -166,6 +206,9 @@ def _check(name: str, value: Any) -> None:
     elif name == "rigid":
         if not isinstance(value, bool):
             raise BadInputError(f"rigid is {value!r}", "in vary", "give True or False")
+    elif name in HEIGHTS or name in LENGTHS:
+        if value is not None:
+            number(value, name, "in vary")
     elif not positive(value, name, "in vary") > _LEAST.get(name, 0.0):
         raise BadInputError(
             f"{name} is {value:g}", "in vary", f"give a number above {_LEAST[name]:g}"

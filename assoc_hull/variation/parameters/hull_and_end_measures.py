@@ -7,9 +7,10 @@ the base line up. Extremes are roots of derivatives of the splines, not defining
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
+import attrs
 import numpy as np
 
 from assoc_hull.analysis.form.profile import LEAST_BULB, boss_curve, tips, transom_curves
@@ -22,6 +23,8 @@ from assoc_hull.variation.parameters.measurement import (
     GAUSS,
     DrawnCurves,
     MeasuredParameter,
+    SectionFrames,
+    frame_at,
     frames_beside,
 )
 
@@ -32,9 +35,12 @@ __all__ = [
     "aft_frame_height",
     "bossing_radius",
     "breadth",
+    "bulb_area",
+    "bulb_frame",
     "bulb_half_breadth",
     "bulb_height",
     "bulb_length",
+    "bulb_section_height",
     "deck_height",
     "depth",
     "design_waterline",
@@ -231,18 +237,62 @@ def bulb_half_breadth(hull: DrawnCurves) -> MeasuredParameter:
     tip = bulb_tip(hull)
     if tip is None:
         return _no_bulb(hull, "bulb_half_breadth")
-    used, curves, how = _section_at_fp(hull, tip)
+    used, curves, whence = _section_at_fp(hull, tip)
     if curves is None:
-        why = "fewer than two waterlines pass the bulb at FP, and no section stands there"
-        return MeasuredParameter("bulb_half_breadth", "m", None, reason=why)
+        return MeasuredParameter("bulb_half_breadth", "m", None, reason=_NO_SECTION)
     level = points_at_coordinate(curves, 2, hull.ship.draught).xyz
     places = np.concatenate([*coordinate_turns(curves, 1), level])
     low = places[places[:, 2] <= hull.ship.draught + 1e-9]
     wide = low[int(low[:, 1].argmax())]
     return MeasuredParameter(
-        "bulb_half_breadth", "m", float(wide[1]), how, [wide], hull.keys(used),
-        {**_shape(hull, tip), "at": float(wide[2])},
+        "bulb_half_breadth", "m", float(wide[1]), f"greatest y of {whence}", [wide],
+        hull.keys(used), {**_shape(hull, tip), "at": float(wide[2])},
     )  # fmt: skip
+
+
+def bulb_area(hull: DrawnCurves) -> MeasuredParameter:
+    """Give the area of the section at FP below the design draught, both halves, m2."""
+    return _of_bulb_section(
+        hull, "bulb_area", "m2", "area up to T of", lambda frame: 2.0 * float(frame.areas[0])
+    )
+
+
+def bulb_section_height(hull: DrawnCurves) -> MeasuredParameter:
+    """Give the height of the centre of area of the section at FP below the design draught."""
+    return _of_bulb_section(
+        hull, "bulb_section_height", "m", "centre of area up to T of",
+        lambda frame: float(frame.heights[0]),
+    )  # fmt: skip
+
+
+def _of_bulb_section(
+    hull: DrawnCurves, name: str, unit: str, how: str, value: Callable[[SectionFrames], float]
+) -> MeasuredParameter:
+    """Measure the section at FP; `x`, `z`, `low`, `top`: the bulb's tip, and the bulb at FP."""
+    tip = bulb_tip(hull)
+    if tip is None:
+        return attrs.evolve(_no_bulb(hull, name), unit=unit)
+    frame = hull.take(bulb_frame)
+    if frame is None:
+        return MeasuredParameter(name, unit, None, reason=_NO_SECTION)
+    used, _, whence = _section_at_fp(hull, tip)
+    return MeasuredParameter(
+        name, unit, value(frame), f"{how} {whence}", [[hull.length, 0.0, float(frame.heights[0])]],
+        hull.keys(used), _shape(hull, tip),
+    )  # fmt: skip
+
+
+def bulb_frame(hull: DrawnCurves) -> SectionFrames | None:
+    """Give the bulb's section at FP up to the draught; None for a hull that has none."""
+    tip = bulb_tip(hull)
+    if tip is None:
+        return None
+    curves = _section_at_fp(hull, tip)[1]
+    frame = None if curves is None else frame_at(curves, hull.length, hull.ship.draught)
+    return frame if frame is not None and frame.areas[0] > 0.0 else None
+
+
+_NO_SECTION = "fewer than two waterlines pass the bulb at FP, and no section stands there"
 
 
 def _section_at_fp(hull: DrawnCurves, tip: FloatArray) -> tuple[list[int], SplineBatch | None, str]:
@@ -253,7 +303,7 @@ def _section_at_fp(hull: DrawnCurves, tip: FloatArray) -> tuple[list[int], Splin
     """
     there = [i for i in hull.sections.tolist() if abs(hull.net.x[i] - hull.length) <= _ON]
     if there:
-        return there, hull.some(there), "greatest y of the section at FP"
+        return there, hull.some(there), "the section at FP"
     low, top = _reach(hull, tip)
     found = hull.across(hull.waterlines.tolist(), 0, hull.length)
     inside = (found.xyz[:, 2] > low + _APART) & (found.xyz[:, 2] < top - _APART)
@@ -268,7 +318,7 @@ def _section_at_fp(hull: DrawnCurves, tip: FloatArray) -> tuple[list[int], Splin
     foot, head = ends[np.abs(ends[:, 2] - low) <= 1e-9][:1], ends[ends[:, 2] == top][:1]
     section = loft(CurveData.single(np.concatenate([foot, xyz[outer], head])))
     used = [*hull.waterlines[curve[outer]].tolist(), *hull.profile]
-    return used, section, "greatest y of the section cut from waterlines and profile at FP"
+    return used, section, "the section cut from waterlines and profile at FP"
 
 
 def stem_rake_deg(hull: DrawnCurves) -> MeasuredParameter:

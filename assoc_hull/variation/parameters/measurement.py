@@ -36,6 +36,7 @@ __all__ = [
     "MeasuredParameter",
     "Measures",
     "SectionFrames",
+    "frame_at",
     "frames_beside",
     "measure_frames",
 ]
@@ -59,7 +60,7 @@ class MeasuredParameter:
     ----------
     name : str
         Of the parameter.
-    unit : {"m", "deg"}
+    unit : {"m", "m2", "deg", "-"}
         Of its value.
     value : float or None
         None where the hull has none, for the `reason`.
@@ -328,10 +329,19 @@ class SectionFrames:
         freeze(self.x, self.start, self.xyz, self.dz)
 
     def mapped(self, move: Callable[[FloatArray], FloatArray]) -> SectionFrames:
-        """Give the sections mapped; weights stay, as only their ratios count."""
+        """Give the sections mapped; weights grow as each section becomes higher."""
         xyz = np.array(move(self.xyz))
         x = np.array([xyz[self.start[i], 0] for i in range(len(self.x))])
-        return SectionFrames(x, self.start.copy(), xyz, self.dz.copy())
+        grown = self._high(xyz) / self._high(self.xyz)
+        dz = self.dz * np.repeat(grown, np.diff(self.start))
+        return SectionFrames(x, self.start.copy(), xyz, dz)
+
+    def _high(self, xyz: FloatArray) -> FloatArray:
+        """Give between which heights the places of each section lie, (k,), m."""
+        if not len(self.x):
+            return np.zeros(0)
+        begin, z = self.start[:-1], xyz[:, 2]
+        return np.asarray(np.maximum.reduceat(z, begin) - np.minimum.reduceat(z, begin))
 
     def sums(self, values: FloatArray) -> FloatArray:
         """Give the integral of values (n,) over z, section by section, (k,)."""
@@ -370,6 +380,13 @@ def frames_beside(hull: DrawnCurves, x: float) -> SectionFrames | None:
     return _frames(hull, stations[after - 1 : after + 1]) if 0 < after < len(places) else None
 
 
+def frame_at(section: SplineBatch, x: float, top: float) -> SectionFrames:
+    """Give the curves of one section up to a height, m, with where it stands."""
+    _, xyz, dz = _places_below(section, top)
+    start = np.array([0, len(xyz)], np.int64)
+    return SectionFrames(np.array([x]), start, xyz, dz)
+
+
 def _stations(hull: DrawnCurves) -> list[tuple[float, list[int]]]:
     """Give the places at which sections stand, with their curves, from aft."""
     curves = hull.sections[np.argsort(hull.net.x[hull.sections], kind="stable")]
@@ -385,8 +402,20 @@ def _stations(hull: DrawnCurves) -> list[tuple[float, list[int]]]:
 
 def _frames(hull: DrawnCurves, stations: Sequence[tuple[float, list[int]]]) -> SectionFrames:
     chosen = [curve for _, curves in stations for curve in curves]
-    batch = hull.some(chosen)
-    curve, begin, end = _intervals(batch, hull.ship.draught)
+    owner, xyz, dz = _places_below(hull.some(chosen), hull.ship.draught)
+    station = np.repeat(np.arange(len(stations)), [len(curves) for _, curves in stations])[owner]
+    start = np.searchsorted(station, np.arange(len(stations) + 1))
+    # A station that lies wholly above the draught has no area.
+    some = np.flatnonzero(np.diff(start) > 0)
+    return SectionFrames(
+        np.array([stations[i][0] for i in some.tolist()]),
+        np.append(start[:-1][some], len(xyz)).astype(np.int64), xyz, dz,
+    )  # fmt: skip
+
+
+def _places_below(batch: SplineBatch, top: float) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Give places on curves below a height (m): the curve of each, (n, 3), and their weights."""
+    curve, begin, end = _intervals(batch, top)
     half = 0.5 * (end - begin)
     t = (0.5 * (begin + end))[:, None] + half[:, None] * GAUSS[0]
     owner = np.repeat(curve, len(GAUSS[0]))
@@ -395,14 +424,7 @@ def _frames(hull: DrawnCurves, stations: Sequence[tuple[float, list[int]]]) -> S
     # from the keel up, whichever way a curve runs
     low, high = batch.xyz[batch.start[:-1], 2], batch.xyz[batch.start[1:] - 1, 2]
     dz = slope * (half[:, None] * GAUSS[1]).ravel() * np.where(high < low, -1.0, 1.0)[owner]
-    station = np.repeat(np.arange(len(stations)), [len(curves) for _, curves in stations])[owner]
-    start = np.searchsorted(station, np.arange(len(stations) + 1))
-    # A station that lies wholly above the draught has no area.
-    some = np.flatnonzero(np.diff(start) > 0)
-    return SectionFrames(
-        np.array([stations[i][0] for i in some.tolist()]),
-        np.append(start[:-1][some], len(xyz)).astype(np.int64), np.array(xyz), dz,
-    )  # fmt: skip
+    return owner, np.array(xyz), dz
 
 
 def _intervals(batch: SplineBatch, top: float) -> tuple[IntArray, FloatArray, FloatArray]:

@@ -18,19 +18,29 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.anchor_fields import level_window
 from assoc_hull.variation.fields.bounded_functions import BlendChain
-from assoc_hull.variation.fields.field import AffinePiece, StackedField, Tube, level_boundaries
+from assoc_hull.variation.fields.field import (
+    AffinePiece,
+    Boundary,
+    StackedField,
+    Tube,
+    level_boundaries,
+)
 from assoc_hull.variation.fields.layers import CornerLayer, DeadriseLayer, FieldLayer, Rake
 from assoc_hull.variation.fields.shift_shapes import Bump
 from assoc_hull.variation.parameters.field_layout import Layout, Share
+from assoc_hull.variation.parameters.paper_fields import bossing_ratios, shaft_ratios
+from assoc_hull.variation.parameters.paper_regions import regions_of
 from assoc_hull.variation.parameters.parent import Parent
 
 __all__ = [
     "aft_shift_field",
     "bilge_radius_layer",
     "bossing_radius_field",
+    "bow_fade",
     "bulb_half_breadth_field",
     "bulb_height_field",
     "bulb_length_field",
+    "bulb_walls",
     "deadrise_layer",
     "deck_height_field",
     "depth_field",
@@ -260,10 +270,22 @@ _BULB = {"base": (0.3, 0.0), "bulb": (0.95, 0.3)}
 """Windows of the bulb's hat (down, up) as parts of the gaps: one long bend from the base up."""
 
 
-def _bow_fade(parent: Parent, layout: Layout) -> BlendChain:
+def bow_fade(parent: Parent, layout: Layout) -> BlendChain:
     """Give 0 up to where the bow begins, 1 from the fore perpendicular on."""
+    regions = regions_of(parent, layout)
+    if regions is not None:
+        return regions.fore()
     nodes = [layout.bow_from * parent.length, parent.length]
     return BlendChain.through(nodes, [0.0, 1.0], layout.curve, "bow")
+
+
+def bulb_walls(parent: Parent, layout: Layout, tip: float, part: float) -> tuple[Boundary, ...]:
+    """Give where the bulb ends upward, its tip (m), and where its fields do, a part of T."""
+    regions = regions_of(parent, layout)
+    heights = [tip, part * parent.draught]
+    if regions is not None:
+        heights = [regions.heights["Hbulb"], regions.heights["Hdraft"]]
+    return level_boundaries(["bulb", "above T"], heights)
 
 
 def bulb_height_field(parent: Parent, asked: float, layout: Layout) -> Share:
@@ -272,7 +294,11 @@ def bulb_height_field(parent: Parent, asked: float, layout: Layout) -> Share:
     tip = parent.at("bulb tip", name)
     z, top = float(tip[2]), layout.bulb_top * parent.draught
     anchors = [("base", 0.0, 0.0), ("bulb", z, asked - z), ("above T", top, 0.0)]
-    field = layout.over(name, anchors, _bow_fade(parent, layout), windows=_BULB)
+    regions = regions_of(parent, layout)
+    if regions is not None:
+        anchors = [("bulb", regions.heights["Hbulb"], asked - z)]
+        anchors = regions.at_rest(anchors, "Hbase", "Hdraft", "Hmax")
+    field = layout.over(name, anchors, bow_fade(parent, layout), windows=_BULB)
     return Share.at(name, "z", asked - z, tip, field)
 
 
@@ -280,10 +306,8 @@ def bulb_half_breadth_field(parent: Parent, asked: float, layout: Layout) -> Sha
     """Widen the bulb by a ratio, full from its foremost point down."""
     name = "bulb_half_breadth"
     side, tip = parent.at("bulb side", name), parent.at("bulb tip", name)
-    y, fade = float(side[1]), _bow_fade(parent, layout)
-    walls = level_boundaries(
-        ["bulb", "above T"], [float(tip[2]), layout.bulb_side * parent.draught]
-    )
+    y, fade = float(side[1]), bow_fade(parent, layout)
+    walls = bulb_walls(parent, layout, float(tip[2]), layout.bulb_side)
     # the widest place may lie above the tip, where the ratio has begun to fade
     unit = StackedField(
         name,
@@ -301,10 +325,8 @@ def bulb_length_field(parent: Parent, asked: float, layout: Layout) -> Share:
     name = "bulb_length"
     tip = parent.at("bulb tip", name)
     change = asked - (float(tip[0]) - parent.length)
-    fade = _bow_fade(parent, layout)
-    walls = level_boundaries(
-        ["bulb", "above T"], [float(tip[2]), layout.bulb_stem * parent.draught]
-    )
+    fade = bow_fade(parent, layout)
+    walls = bulb_walls(parent, layout, float(tip[2]), layout.bulb_stem)
     pieces = AffinePiece.along(fade, 0.0, change), AffinePiece.along(fade, 0.0, 0.0)
     return Share.at(name, "x", change, tip, StackedField(name, "x", walls, pieces, layout.curve))
 
@@ -318,7 +340,7 @@ def stem_rake_field(parent: Parent, asked: float, layout: Layout) -> Share:
     width = 0.5 * height
     # the ramp has grown to height - width / 2 at the top
     field = Rake(
-        name, _bow_fade(parent, layout), change / (height - 0.5 * width), float(foot[2]), width,
+        name, bow_fade(parent, layout), change / (height - 0.5 * width), float(foot[2]), width,
         layout.curve,
     )  # fmt: skip
     return Share(name, "x", change, np.array([top, foot]), np.array([1.0, -1.0]), (field,))
@@ -357,7 +379,7 @@ def shaft_height_field(parent: Parent, asked: float, layout: Layout) -> Share:
     change, top = asked - z, layout.shaft_top * parent.draught
     fade = _stern_fade(layout, _cylinder(parent, x), layout.shaft * parent.length)
     if layout.blend == "paper":
-        return Share.at(name, "z", change, boss, _ratio_shaft(parent, change, layout, fade))
+        return Share.at(name, "z", change, boss, shaft_ratios(parent, change, layout, fade))
     anchors, rigid = [("shaft", z, change)], tuple[str, ...]()
     if layout.rigid and parent.has("boss top"):
         r = float(parent.places["boss top"][2]) - z
@@ -388,7 +410,7 @@ def bossing_radius_field(parent: Parent, asked: float, layout: Layout) -> Share:
     r = float(top[2]) - h
     fade = _stern_fade(layout, _cylinder(parent, x), layout.bossing * r)
     if layout.blend == "paper":
-        return Share.at(name, "y", asked - y, side, *_ratio_bossing(parent, asked, layout, fade))
+        return Share.at(name, "y", asked - y, side, *bossing_ratios(parent, asked, layout, fade))
     names = [f"boss{each}r" for each in ("-6", "-", "+", "+4")]
     walls = level_boundaries(names, [h - 6.0 * r, h - r, h + r, h + 4.0 * r])
     wide, high = asked / y - 1.0, asked - r
@@ -407,35 +429,6 @@ def bossing_radius_field(parent: Parent, asked: float, layout: Layout) -> Share:
     return Share.at(name, "y", asked - y, side, out, up)
 
 
-def _ratio_shaft(parent: Parent, change: float, layout: Layout, fade: BlendChain) -> StackedField:
-    """Give the field of the shaft's height as Choi & Lee lay it out, of ratios of heights."""
-    h = float(parent.at("boss", "shaft_height")[2])
-    anchors = [("shaft", h, change)]
-    if parent.has("boss top"):
-        r = float(parent.places["boss top"][2]) - h
-        anchors = [("shaft-r", h - r, change), *anchors, ("shaft+r", h + r, change)]
-    anchors = [("base", 0.0, 0.0), *anchors, ("T", parent.draught, 0.0)]
-    return layout.over("shaft_height", anchors, fade)
-
-
-def _ratio_bossing(
-    parent: Parent, asked: float, layout: Layout, fade: BlendChain
-) -> tuple[StackedField, StackedField]:
-    """Give the bossing's fields as Choi & Lee lay them out: no tube, no pivot at its centre."""
-    name = "bossing_radius"
-    side, boss, top = (parent.at(key, name) for key in ("boss side", "boss", "boss top"))
-    h, y = float(boss[2]), float(side[1])
-    r = float(top[2]) - h
-    walls = level_boundaries(["shaft-3r", "shaft", "shaft+3r"], [h - 3.0 * r, h, h + 3.0 * r])
-    none, broad = AffinePiece.along(fade, 0.0, 0.0), AffinePiece.along(fade, asked / y - 1.0, 0.0)
-    anchors = [
-        ("base", 0.0, 0.0), ("shaft-r", h - r, r - asked), ("shaft", h, 0.0),
-        ("shaft+r", h + r, asked - r), ("T", parent.draught, 0.0),
-    ]  # fmt: skip
-    out = StackedField(name, "y", walls, (none, broad, none), layout.curve)
-    return out, layout.over(name, anchors, fade)
-
-
 def transom_height_field(parent: Parent, asked: float, layout: Layout) -> Share:
     """Raise the transom's lowest point; what lies above it, the deck included, moves along."""
     name = "transom_height"
@@ -444,6 +437,12 @@ def transom_height_field(parent: Parent, asked: float, layout: Layout) -> Share:
     foot = min(layout.transom_low * parent.draught, 0.5 * z)
     anchors = [("transom foot", foot, 0.0), ("transom", z, asked - z)]
     fade = _stern_fade(layout, x, layout.stern * parent.length)
+    regions = regions_of(parent, layout)
+    if regions is not None:
+        fade, level = regions.aft(x), regions.heights["Htransom"]
+        above = [each for each in ("Hdraft", "Hmax") if regions.heights[each] > level]
+        anchors = [("transom", level, asked - z)]
+        anchors = regions.at_rest(anchors, "Hbase", "Hbilge", "Hshaft", *above)
     field = layout.over(name, anchors, fade, windows=_FOOT)
     return Share.at(name, "z", asked - z, low, field)
 
@@ -456,6 +455,10 @@ def transom_half_breadth_field(parent: Parent, asked: float, layout: Layout) -> 
     foot = min(layout.transom_side * parent.draught, 0.5 * z)
     fade = _stern_fade(layout, x, layout.stern * parent.length)
     pieces = AffinePiece.along(fade, 0.0, 0.0), AffinePiece.along(fade, asked / y - 1.0, 0.0)
+    regions = regions_of(parent, layout)
+    if regions is not None:
+        fade, z = regions.aft(x), regions.heights["Htransom"]
+        foot = regions.below(z)
     walls = level_boundaries(["transom foot", "transom"], [foot, z])
     n = 0.5 * parent.breadth / y
     tube = Tube(y, n, layout.curve) if n > _SLENDER else None
@@ -475,6 +478,9 @@ _ALIKE = 1e-6
 
 def _range(parent: Parent, layout: Layout, name: str) -> BlendChain:
     """Give how much acts along the ship: 1 along the parallel body, fading beyond."""
+    regions = regions_of(parent, layout)
+    if regions is not None:
+        return regions.middle()
     start = float(parent.at("body start", name)[0])
     end = float(parent.at("body end", name)[0])
     reach = layout.bilge_length * parent.length

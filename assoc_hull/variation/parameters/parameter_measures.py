@@ -47,6 +47,8 @@ MEASURES: Mapping[str, Callable[[DrawnCurves], MeasuredParameter]] = MappingProx
             hull_and_end_measures.transom_half_breadth,
             hull_and_end_measures.bulb_height,
             hull_and_end_measures.bulb_half_breadth,
+            hull_and_end_measures.bulb_area,
+            hull_and_end_measures.bulb_section_height,
             hull_and_end_measures.bulb_length,
             midship_measures.bilge_radius,
             midship_measures.deadrise_deg,

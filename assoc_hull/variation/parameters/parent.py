@@ -20,7 +20,7 @@ from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState
-from assoc_hull.variation.parameters.hull_and_end_measures import design_waterline
+from assoc_hull.variation.parameters.hull_and_end_measures import bulb_frame, design_waterline
 from assoc_hull.variation.parameters.measurement import (
     DrawnCurves,
     MeasuredParameter,
@@ -66,6 +66,8 @@ class Parent:
         Gives the sections up to the draught; sampled when they are asked for.
     waterline : callable
         Gives places of the design waterline, (n, 3), m, from aft, close together.
+    bulb : callable
+        Gives the section at FP up to the draught, of a ship with a bulb.
 
     Examples
     --------
@@ -85,6 +87,7 @@ class Parent:
     absent: Mapping[str, str] = attrs.field(factory=dict)
     frames: Callable[[], SectionFrames] = attrs.field(default=_no_frames, repr=False)
     waterline: Callable[[], FloatArray] = attrs.field(default=lambda: np.zeros((0, 3)), repr=False)
+    bulb: Callable[[], SectionFrames] = attrs.field(default=_no_frames, repr=False)
 
     def at(self, place: str, parameter: str) -> FloatArray:
         """Give a place that a parameter needs.
@@ -118,6 +121,7 @@ class Parent:
             dimensions.get("depth", self.depth), dimensions.get("draught", self.draught),
             top, places, self.absent, cache(lambda: self.frames().mapped(move)),
             cache(lambda: np.array(move(self.waterline()))),
+            cache(lambda: self.bulb().mapped(move)),
         )  # fmt: skip
 
 
@@ -170,6 +174,7 @@ def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
         ship.length, breadth, depth, ship.draught, top, places, dict(found.absent),
         cache(lambda: measure_frames(DrawnCurves(state))),
         cache(lambda: _waterline(DrawnCurves(state))),
+        cache(lambda: bulb_frame(DrawnCurves(state)) or _no_frames()),
     )  # fmt: skip
 
 

@@ -35,7 +35,13 @@ CLASSES: tuple[tuple[tuple[str, ...], ...], ...] = (
     (("transom_height", "shaft_height", "sheer_aft"), ("bulb_height", "sheer_fore")),
     (
         ("transom_half_breadth", "aft_frame_height", "run_deg", "waterline_fullness"),
-        ("bulb_half_breadth", "fore_frame_height", "entrance_deg"),
+        (
+            "bulb_half_breadth",
+            "bulb_area",
+            "bulb_section_height",
+            "fore_frame_height",
+            "entrance_deg",
+        ),
     ),
     (("bossing_radius",),),
 )

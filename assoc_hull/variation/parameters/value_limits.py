@@ -23,6 +23,7 @@ from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.compose_map import STEEPEST
 from assoc_hull.variation.parameters.field_layout import Layout
 from assoc_hull.variation.parameters.measurement import Measures
+from assoc_hull.variation.parameters.paper_regions import regions_of
 from assoc_hull.variation.parameters.parent import Parent
 
 __all__ = [
@@ -107,7 +108,11 @@ def _flat_of_bottom(parent: Parent, present: float, layout: Layout) -> ValueBoun
 
 def _bulb_length(parent: Parent, present: float, layout: Layout) -> ValueBounds:
     """Stretch the bow as much as it may be compressed: beyond, frames cross the stem twice."""
-    most = _SPARE * (1.0 - layout.bow_from) * parent.length / layout.curve.steepest
+    regions = regions_of(parent, layout)
+    room = (1.0 - layout.bow_from) * parent.length
+    if regions is not None:
+        room = regions.lengths["EX0"] - regions.lengths["EX1"]
+    most = _SPARE * room / layout.curve.steepest
     why = "stretches the bow nearly twofold, or folds it"
     return ValueBounds(max(0.0, present - most), present + most, why)
 

@@ -70,6 +70,8 @@ def test_intervals_are_those_of_the_layout(hull: Path, facts: Json) -> None:
     assert usual["draught"]["low"] < usual["draught"]["value"] < usual["draught"]["high"]
     assert far["stem_rake_deg"]["low"] < usual["stem_rake_deg"]["low"] < 0.0
     assert far["breadth"] == usual["breadth"]
+    region = listed("--layout", "blend=paper", "--layout", "EX1=60")
+    assert region["stem_rake_deg"]["low"] < usual["stem_rake_deg"]["low"]
     assert usual["deadrise_deg"]["reason"] == (
         "cannot be varied: parent has no parallel middle body"
     )

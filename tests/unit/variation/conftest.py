@@ -28,7 +28,7 @@ def ship() -> Parent:
         "entrance": at(285, side(285, 18), 18), "waterline fore": at(300, 0, 18),
         "run": at(15, side(15, 18), 18), "waterline aft": at(0, side(0, 18), 18),
     }  # fmt: skip
-    return Parent(300, 50, 27, 18, 27, places, {}, frames, waterline)
+    return Parent(300, 50, 27, 18, 27, places, {}, frames, waterline, bulb)
 
 
 def side(x: float, z: float) -> float:
@@ -44,6 +44,13 @@ def frames() -> SectionFrames:
     x, z = np.linspace(0.0, 295.0, 60), 9.0 + 9.0 * nodes
     xyz = np.array([[a, side(a, b), b] for a in x.tolist() for b in z.tolist()])
     return SectionFrames(x, 12 * np.arange(61), xyz, np.tile(9.0 * weights, 60))
+
+
+def bulb() -> SectionFrames:
+    """The section of its bulb at FP: half an ellipse, 14 m high and 6 m from the centre plane."""
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+    xyz = np.column_stack([np.full(24, 300.0), 6.0 * np.sqrt(1.0 - nodes**2), 7.0 + 7.0 * nodes])
+    return SectionFrames(np.array([300.0]), np.array([0, 24]), xyz, 7.0 * weights)
 
 
 def waterline() -> FloatArray:

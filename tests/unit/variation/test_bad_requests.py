@@ -29,6 +29,7 @@ from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import parent_of
 from assoc_hull.variation.parameters.value_limits import hull_box, present_values
 from assoc_hull.variation.request import TOLERANCE
+from tests.conftest import Shipped
 
 Given = dict[str, Any]
 
@@ -336,3 +337,12 @@ def test_targets_that_no_plan_reaches_are_refused_with_what_the_values_give(
     alone = hull.vary(set={"breadth": 10.2}).hull.hydrostatics(estimate=False).volume
     assert given == pytest.approx(alone, rel=1e-5)
     assert hull.fingerprint == was
+
+
+def test_a_plane_that_comes_to_touch_the_hull_is_told_by_its_line(shipped: Shipped) -> None:
+    """Where a buttock closes to a point, two of its crossings are one; a little more goes."""
+    hull = shipped("container_ship_225m")
+    says = r"two points of BTK 2 come to lie in one place, \(225.000, 2.000, 4.707\) m"
+    with pytest.raises(BadInputError, match=says):
+        hull.vary(set={"bulb_half_breadth": 2.0})
+    assert hull.vary(set={"bulb_half_breadth": 2.05}).report.edit.changed

@@ -26,7 +26,7 @@ LOCAL = {
     "parallel_body_end": 200.0, "stem_rake_deg": 22.0, "fore_shift": 1.5, "aft_shift": -1.5,
     "parallel_body_length": 95.0, "sheer_fore": 0.7, "sheer_aft": -0.4,
     "fore_frame_height": 9.4, "aft_frame_height": 9.2, "entrance_deg": 40.0, "run_deg": 20.0,
-    "waterline_fullness": 0.86,
+    "waterline_fullness": 0.86, "bulb_area": 110.0, "bulb_section_height": 7.2,
 }  # fmt: skip
 
 

@@ -11,13 +11,21 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.variation.carrying.admissible_values import list_parameters
+from assoc_hull.variation.parameters.compose_map import compose_map
+from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.parameters.parent import parent_of
 from tests.conftest import Shipped
 from tests.variation_sets import outcome
 
 SHAPE = (
     "parallel_body_length", "sheer_fore", "sheer_aft", "fore_frame_height", "aft_frame_height",
-    "entrance_deg", "run_deg", "waterline_fullness",
+    "entrance_deg", "run_deg", "waterline_fullness", "bulb_area", "bulb_section_height",
 )  # fmt: skip
+NOT_THERE = {
+    "parallel_body_length": "parent has no parallel middle body",
+    "bulb_area": "no profile forward of FP below z=", "bulb_section_height": "no profile forward",
+}  # fmt: skip
+"""Why a ship may have none."""
 
 
 def _areas(hull: ah.Hull) -> FloatArray:
@@ -33,8 +41,10 @@ def _areas(hull: ah.Hull) -> FloatArray:
         ("series60_70", {"sheer_fore": 0.8, "sheer_aft": 0.4}, {}),
         ("container_ship_225m", {"run_deg": 0.7}, {}),
         ("container_ship_225m", {"waterline_fullness": 0.002}, {}),
+        ("bulk_carrier", {"bulb_area": -6.0, "bulb_section_height": 0.1}, {}),
+        ("container_ship_225m", {"bulb_area": 1.5, "entrance_deg": 0.3}, {"draught": 1.01}),
     ],
-    ids=["frames", "body and entrance", "sheer", "run", "fullness"],
+    ids=["frames", "body and entrance", "sheer", "run", "fullness", "bulb", "bulb and draught"],
 )
 def test_asked_values_are_met(
     shipped: Shipped, ship: str, changes: dict[str, float], scaled: dict[str, float]
@@ -71,8 +81,7 @@ def test_the_list_tells_bounds_or_why_there_are_none(
         for name in SHAPE:
             each = listed[name]
             if each.value is None:
-                assert each.reason == "parent has no parallel middle body"
-                assert name == "parallel_body_length"
+                assert str(each.reason).startswith(NOT_THERE[name])
                 continue
             assert each.low is not None
             assert each.low < each.value
@@ -103,4 +112,38 @@ def test_a_measure_is_that_of_the_drawn_hull(shipped: Shipped) -> None:
     for name in ("fore_frame_height", "aft_frame_height"):
         assert found[name] == pytest.approx(6.25 * 5.0 / 8.0, rel=2e-3)
     assert found["sheer_fore"] == found["sheer_aft"] == 0.0
-    assert found.absent["parallel_body_length"] == "parent has no parallel middle body"
+    for name, reason in NOT_THERE.items():
+        assert found.absent[name].startswith(reason)
+
+
+@pytest.mark.parametrize("ship", ["bulk_carrier", "container_ship_225m"])
+def test_the_section_of_a_bulb_is_that_of_the_form_parameters(shipped: Shipped, ship: str) -> None:
+    """Cut by slices of the surface, or lofted through waterlines and profile."""
+    hull = shipped(ship)
+    found, form = hull.measure(), hull.form_parameters()
+    assert found["bulb_area"] == pytest.approx(form["A_BT"].number, rel=2e-3)
+    assert found["bulb_section_height"] == pytest.approx(form["h_B"].number, rel=2e-3)
+
+
+def test_a_bulb_is_filled_or_raised_and_not_both(bulk_carrier: ah.Hull) -> None:
+    """What one measure gains the other does not; the broad frames behind the bulb stay."""
+    parent = parent_of(bulk_carrier.document.state)
+    frame, now = parent.bulb(), bulk_carrier.measure()
+    for name, change in (("bulb_area", 9.0), ("bulb_section_height", 0.3)):
+        vmap = compose_map(parent, {name: now[name] + change}, Layout())
+        moved = frame.mapped(vmap)
+        area, height = 2.0 * float(moved.areas[0]), float(moved.heights[0])
+        if name == "bulb_area":
+            assert area == pytest.approx(now["bulb_area"] + change, abs=1e-9)
+        else:
+            assert area == pytest.approx(now["bulb_area"], abs=1e-9)
+            assert height == pytest.approx(now["bulb_section_height"] + change, abs=1e-9)
+        side = np.array([[280.0, 18.0, 5.0], [250.0, 5.0, 5.0]])
+        assert (vmap(side) == side).all()
+
+
+def test_area_and_half_breadth_of_a_bulb_are_one_number(bulk_carrier: ah.Hull) -> None:
+    """Both widen the section at FP: refused by both names."""
+    asked = {"bulb_area": 120.0, "bulb_half_breadth": 6.0}
+    with pytest.raises(BadInputError, match="'bulb_area' and 'bulb_half_breadth' cannot be asked"):
+        bulk_carrier.vary(set=asked)

@@ -190,7 +190,7 @@ def test_a_hull_of_another_size_measures_in_proportion(
     found = measure_all(state)
     assert list(found) == list(carrier)
     for name, value in carrier.items():
-        factor = 1.0 if name.endswith("_deg") or name == "waterline_fullness" else k
+        factor = {"m": k, "m2": k * k}.get(carrier.anchors[name].unit, 1.0)
         assert found[name] == pytest.approx(factor * value, abs=1e-9), name
 
 
@@ -245,9 +245,11 @@ def test_values_follow_a_map_evenly(
     )
     assert list(zero) == [name for name in carrier if name != "bossing_radius"]
     for name, value in zero.items():
-        step = one[name] - value
+        # an area, m2, changes by as many metres as it is high
+        per = 10.0 if zero.anchors[name].unit == "m2" else 1.0
+        step = (one[name] - value) / per
         assert abs(step) <= 2e-6, name
-        assert two[name] - one[name] == pytest.approx(step, abs=1e-8), name
+        assert (two[name] - one[name]) / per == pytest.approx(step, abs=1e-8), name
 
 
 def test_a_bilge_stretched_about_its_corner_is_measured_larger(box: ah.Hull) -> None:
@@ -300,6 +302,8 @@ def test_wigley_has_neither_bulb_nor_transom_nor_bilge() -> None:
         "bulb_height": no_bulb,
         "bulb_half_breadth": no_bulb,
         "bulb_length": no_bulb,
+        "bulb_area": no_bulb,
+        "bulb_section_height": no_bulb,
         "bilge_radius": "parent has no bilge between a flat bottom and a flat side amidships",
         "flat_of_bottom": "parent has no flat of bottom amidships",
         "parallel_body_start": "parent has no parallel middle body",
@@ -357,13 +361,13 @@ def test_the_dtc_is_measured_at_its_own_length(dtc: ah.Hull) -> None:
 
 
 def test_names_and_units_are_those_of_the_catalogue(carrier: Measures) -> None:
-    """Twenty-six measures and two amplitudes; angles end in _deg."""
-    assert len(MEASURES) == 26
+    """Twenty-eight measures and two amplitudes; angles end in _deg."""
+    assert len(MEASURES) == 28
     assert tuple(carrier.anchors) == (*MEASURES, *AMPLITUDES)
     for name, anchor in carrier.anchors.items():
         assert anchor.name == name
-        ratio = name == "waterline_fullness"
-        assert anchor.unit == ("deg" if name.endswith("_deg") else "-" if ratio else "m")
+        other = {"waterline_fullness": "-", "bulb_area": "m2"}
+        assert anchor.unit == ("deg" if name.endswith("_deg") else other.get(name, "m"))
 
 
 def test_only_what_was_asked_for_is_measured(bulk_carrier: ah.Hull, carrier: Measures) -> None:

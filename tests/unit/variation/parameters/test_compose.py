@@ -113,7 +113,8 @@ def test_a_parameter_alone_leaves_the_rest_of_the_ship_to_the_bit(ship: Parent, 
            "parallel_body_end": 205.5, "stem_rake_deg": 18.43, "fore_shift": 0.0,
            "aft_shift": 0.0, "parallel_body_length": 90.5, "sheer_fore": 0.0,
            "sheer_aft": 0.0, "fore_frame_height": 8.9, "aft_frame_height": 8.9,
-           "entrance_deg": 47.0, "run_deg": 30.0, "waterline_fullness": 0.85}  # fmt: skip
+           "entrance_deg": 47.0, "run_deg": 30.0, "waterline_fullness": 0.85,
+           "bulb_area": 100.0, "bulb_section_height": 7.0}  # fmt: skip
     vmap = compose_map(ship, {name: now[name] + 0.2}, Layout())
     random = np.random.default_rng(7)
     xyz = random.uniform([-5, 0, 0], [306, 25, 27], (4000, 3))
@@ -129,7 +130,8 @@ def test_a_parameter_alone_leaves_the_rest_of_the_ship_to_the_bit(ship: Parent, 
 
 @pytest.mark.parametrize(("one", "other"), [("depth", "deck_height"),
                                             ("bilge_radius", "flat_of_bottom"),
-                                            ("bilge_radius", "deadrise_deg")])  # fmt: skip
+                                            ("bilge_radius", "deadrise_deg"),
+                                            ("bulb_area", "bulb_half_breadth")])  # fmt: skip
 def test_parameters_that_contradict_each_other_are_both_named(
     ship: Parent, one: str, other: str
 ) -> None:
@@ -164,6 +166,6 @@ def test_a_layout_takes_only_what_it_knows(layout: dict[str, object]) -> None:
 
 
 def test_the_catalogue_names_all() -> None:
-    """Twenty-six measured ones and two amplitudes; one name everywhere."""
-    assert len(NAMES) == 28
+    """Twenty-eight measured ones and two amplitudes; one name everywhere."""
+    assert len(NAMES) == 30
     assert [name for name in NAMES if CATALOGUE[name].amplitude] == ["fore_shift", "aft_shift"]
