@@ -158,6 +158,24 @@ def test_a_point_that_is_set_by_hand_is_given_there() -> None:
     assert hull.state.rows.faired.data[point.row].any()
 
 
+@pytest.mark.parametrize("factor", [2.0, 0.5])
+def test_a_transformation_carries_what_was_given(factor: float) -> None:
+    """A faired hull of another size is faired by the noise of that size."""
+    hull = ah.examples.wigley()
+    put_noise(hull, WIDTH)
+    hull.fair(noise=NOISE)
+    faired = hull.state.rows.faired.data.copy()
+    with hull.edit("another size") as edit:
+        edit.transform(scale=[factor] * 3, drivers=["sections", "profile"], planes="follow")
+    size = len(faired)
+    assert hull.state.rows.faired.data[:size] == pytest.approx(factor * faired, abs=1e-12)
+    before = hull.state.rows.xyz.data.copy()
+    hull.fair(noise=factor * NOISE)
+    assert displaced(hull, before) < 0.02 * factor * NOISE
+    hull.undo(2)
+    assert np.array_equal(hull.state.rows.faired.data[:size], faired)
+
+
 def test_since_a_checkpoint_points_are_given_where_they_were_there() -> None:
     """What was done since is noise to it, as far as it looks like noise."""
     hull = ah.examples.wigley()
