@@ -90,6 +90,16 @@ def test_fairing_again_is_fairing_once(name: str, shipped: Shipped) -> None:
     assert max(errors) <= 1.01 * errors[0]
 
 
+@pytest.mark.parametrize("name", ["plain_ship", *(["bulk_carrier_180m"] if LONG else [])])
+def test_points_that_a_feature_is_computed_from_stay(name: str, shipped: Shipped) -> None:
+    """A straight run whose crossings other lines carry was bent off itself by 32 micrometres."""
+    hull = shipped(name)
+    features = [*hull.features]
+    report = hull.fair(noise=1e-3)
+    assert [*hull.features] == features
+    assert report.found.stayed["that lead points of a feature"] > 5
+
+
 def test_the_order_of_creation_changes_no_bit(shipped: Shipped, tmp_path: Path) -> None:
     """A hull from text has its points in another order, and comes out the same."""
     hull = shipped("series60_70")
