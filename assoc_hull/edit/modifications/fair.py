@@ -178,6 +178,15 @@ class Faired:
     stayed: Mapping[str, int]
     problem: BattenProblem = attrs.field(repr=False)
 
+    @property
+    def note(self) -> str:
+        """What the history tells of it, in a line."""
+        moved = f"rms {1e3 * self.moved_rms:.2f} mm, largest {1e3 * self.moved_largest:.2f} mm"
+        return (
+            f"faired by a noise of {1e3 * self.noise:.3g} mm, {self.source}: "
+            f"{self.unknowns} points could move, {moved}"
+        )
+
     def estimated_noise(self, factor: float = 1.0) -> float:
         """Estimate the noise of the points that could move from their lines, m."""
         return estimate_noise(self.problem, factor)
@@ -262,6 +271,7 @@ def fair(edit: Transaction, asked: FairRequest) -> Faired:
         moves = edit.pending.ask(FieldMoves)
         moves.fields.append(FairField(rows, delta))
         moves.faired.append((rows, more))
+        edit.pending.notes.append(found.note)
     return found
 
 
