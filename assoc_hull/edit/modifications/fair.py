@@ -78,6 +78,9 @@ may be short numbers by themselves."""
 _MEDIAN_POINTS, _LEAST_RESIDUALS = 12, 100
 """Lines and nets with fewer points do not tell noise from shape."""
 
+_NAMED = 5
+"""So many points a message names."""
+
 _HOLDS, _VOLUME_OFF, _LCB_OFF = 6, 1e-8, 1e-6
 """So often sums are corrected; a part of the volume, and m."""
 
@@ -473,14 +476,17 @@ def _held(
         if not (solution.side == 0).any():
             break
         solution = hold_sums(solution, np.array(sums), np.array(errors))
-        solution = attrs.evolve(
-            solution, displacement=np.clip(solution.displacement, -limit, limit)
-        )
-    bound = int((solution.side != 0).sum())
+        d = np.clip(solution.displacement, -limit, limit)
+        side = np.where(np.abs(d) >= limit, np.sign(d), 0.0).astype(np.int64)
+        solution = attrs.evolve(solution, displacement=d, side=side)
+    bound = np.flatnonzero(solution.side)
+    rows = given.problem.rows[bound[:_NAMED]].tolist()
+    names = ", ".join(address(state, row) for row in rows) + (" ..." if len(bound) > _NAMED else "")
+    ends = f", {len(bound)} points are at their bound ({names})" if len(bound) else ""
     raise BadInputError(
         f"{' and '.join(hold)} cannot be held: volume is off by {off[0]:.2g} of it and LCB by "
-        f"{1e3 * off[1]:.2g} mm after {_HOLDS} rounds, {bound} points are at their bound", _WHERE,
-        "give a larger tolerance, or hold less",
+        f"{1e3 * off[1]:.2g} mm after {_HOLDS} rounds{ends}", _WHERE,
+        "let more points move (lines, a wider window, a larger tolerance), or hold less",
     )  # fmt: skip
 
 

@@ -294,6 +294,21 @@ def test_volume_and_centre_are_held(name: str, shipped: Shipped) -> None:
     assert abs(after.lcb - before.lcb) <= 1e-6
 
 
+def test_what_cannot_be_held_is_said_and_the_hull_stays(shipped: Shipped) -> None:
+    """A line above the draught moves volume a little, and gives nothing to correct it with."""
+    hull = shipped("series60_70")
+    print_ = hull.fingerprint
+    with pytest.raises(BadInputError, match=r"cannot be held: volume is off by .*let more points"):
+        hull.fair(["WL 1.25"], noise=1e-3, hold=["volume", "lcb"])
+    assert hull.fingerprint == print_
+    before = even_keel_displacement(hull.state)
+    report = hull.fair(["WL 0.5"], noise=1e-3, tolerance=0.5e-3, hold=["lcb", "volume"])
+    after = even_keel_displacement(hull.state)
+    assert report.at_bound
+    assert abs(after.volume / before.volume - 1.0) <= 1e-8
+    assert abs(after.lcb - before.lcb) <= 1e-6
+
+
 def test_a_rounded_hull_tells_its_noise() -> None:
     """Half-breadths in whole centimetres: the unit over the root of twelve."""
     hull = ah.examples.wigley()
