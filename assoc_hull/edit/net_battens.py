@@ -1,8 +1,9 @@
 """The batten residuals of a hull, and which of its points fairing may move.
 
 These are the points that a field may move, less those of features and all between the ends of a
-feature on its curve: a straight run or an arc would be bent off its shape by them. All others stay
-in the windows as they are, so that lines run smoothly into flats, knuckles and the profile.
+feature on its curve, and those that such points are computed from: a straight run or an arc would
+be bent off its shape. All others stay in the windows as they are, so that lines run smoothly into
+flats, knuckles and the profile.
 """
 
 from __future__ import annotations
@@ -26,6 +27,10 @@ __all__ = [
 ]
 
 
+_FINE = 1e-6
+"""By this part of what is given a point on a feature may go along with others."""
+
+
 def net_battens(state: HullState, also: IntArray | None = None) -> BattenProblem:
     """Give the residuals of a whole net and how they change with all points that may be faired.
 
@@ -36,16 +41,25 @@ def net_battens(state: HullState, also: IntArray | None = None) -> BattenProblem
         state.rows.anchor_weight, state.rows.key, state.featured.alive, state.featured.feature,
     )  # fmt: skip
     rows = state.derived(("fairable rows",), depends_on, lambda: fairable_rows(state), most=1)
-    if also is not None and not np.isin(also, rows).all():
-        return _battens(state, _by_key(state, np.union1d(rows, also)))
-    return state.derived(("battens",), depends_on, lambda: _battens(state, rows), most=1)
+    found = state.derived(("battens",), depends_on, lambda: _battens(state, rows), most=1)
+    if also is None or np.isin(also, found.rows).all():
+        return found
+    return _battens(state, _by_key(state, np.union1d(rows, also)), also)
 
 
-def _battens(state: HullState, rows: IntArray) -> BattenProblem:
-    normal = hull_normals(state)
-    return batten_problem(
-        state, rows, normal, free_normals(state, np.arange(state.rows.count), normal)
-    )
+def _battens(state: HullState, rows: IntArray, also: IntArray | None = None) -> BattenProblem:
+    """Put the problem together, less the points that lead others of a feature; `also` stay in."""
+    normal, features = hull_normals(state), feature_rows(state)
+    along = free_normals(state, np.arange(state.rows.count), normal)
+    found = batten_problem(state, rows, normal, along)
+    if found.rates[features].count_nonzero():
+        # Points of features that are computed would be bent off them by the least rate.
+        fine = batten_problem(state, rows, normal, along, _FINE)
+        away = np.unique(fine.rates[features].indices)
+        if also is not None:
+            away = away[~np.isin(rows[away], also)]
+        found = batten_problem(state, np.delete(rows, away), normal, along)
+    return found
 
 
 def fairable_rows(state: HullState) -> IntArray:
@@ -83,7 +97,7 @@ def reasons_to_stay(state: HullState, lines: IntArray | None) -> dict[str, int]:
         curve = table.curve.data[rows]
         line = np.where(curve >= 0, state.curves.line.data[np.maximum(curve, 0)], -1)
         rows = rows[np.isin(line, lines).any(axis=1)]
-    rows = np.setdiff1d(rows, fairable_rows(state))
+    rows = np.setdiff1d(rows, net_battens(state).rows)
     crossing = table.sort.data[rows] == Sort.CROSSING
     left, found = np.ones(len(rows), np.bool_), dict[str, int]()
     for why, mine in (
@@ -92,6 +106,7 @@ def reasons_to_stay(state: HullState, lines: IntArray | None) -> dict[str, int]:
         ("on the profile", on_profile(state)[rows]),
         ("on a flat", on_flat(state)[rows]),
         ("of a feature", np.isin(rows, feature_rows(state))),
+        ("that lead points of a feature", np.isin(rows, fairable_rows(state))),
         ("free almost along the hull only", left),
     ):
         here = left & mine

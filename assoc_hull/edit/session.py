@@ -423,8 +423,8 @@ class Edit:
 
         Notes
         -----
-        The method is told in docs/fairing_method.md. Smoothing that only waves shorter than six
-        points: what runs smoothly over more is shape.
+        docs/fairing_method.md tells the method. Waves longer than about six points are shape to it,
+        and stay.
 
         Examples
         --------

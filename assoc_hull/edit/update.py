@@ -147,9 +147,10 @@ def _set_values(
     old = state.rows.xyz[rows]
     differs = bits_differ(old, value)
     journal.put(state.rows.xyz, rows[differs], value[differs])
-    # A point that was set by hand is given there: fairing has not moved it any more.
+    # A point that was set by hand is given there: fairing has not moved it any more. A mapping has
+    # carried what was given.
     faired = rows[state.rows.faired.take(rows).any(axis=1)]
-    if len(faired):
+    if len(faired) and not pending.alone:
         journal.put(state.rows.faired, faired, 0.0)
     step = value[differs] - old[differs]
     return rows[differs], np.sqrt((step * step).sum(axis=1))

@@ -148,7 +148,8 @@ class FairReport:
                 f"the lines look like a noise of {1e3 * self.estimated_noise:.2g} mm, more than "
                 f"twice the {1e3 * self.noise:.3g} mm that was stated"
             )
-        yield from () if self.edit is None else self.edit.notes
+        if self.edit is not None:
+            yield from (note for note in self.edit.notes if note != self.found.note)
         if self.edit is not None and self.edit.mended:
             yield f"{len(self.edit.mended)} curves were given a point to close a gap"
         lost = [each.line for each in self.lines if each.inflections[1] < each.inflections[0]]

@@ -101,7 +101,7 @@ class BattenProblem:
 
 
 def batten_problem(
-    state: HullState, rows: IntArray, normal: FloatArray, along: FloatArray
+    state: HullState, rows: IntArray, normal: FloatArray, along: FloatArray, least: float = 1e-2
 ) -> BattenProblem:
     """Put the residuals of all curves of a net together.
 
@@ -114,6 +114,9 @@ def batten_problem(
     normal, along : (rows, 3)
         Of all points of the table: the unit outward normal of the hull, and what a point's freedom
         is of it, U U^T n.
+    least : float
+        Computed points go along where they do by more than this part; a tenth of what it is changed
+        what is left of noise by 1e-4.
     """
     curves = np.array(
         [each for each in state.live("curves").tolist() if state.curves.spline.data[each]],
@@ -124,7 +127,7 @@ def batten_problem(
     flat = state.lines.planar[line]
     planes = np.where(flat[:, None], state.lines.normal[line], np.nan)
     freedom, moves = _moves(state, rows, along)
-    rates = follow(driven_rates(state, curves, batch, planes, moves), rows)
+    rates = follow(driven_rates(state, curves, batch, planes, moves, least), rows)
     window = _windows(state, curves, batch, np.diff(rates.indptr) > 0)
     row = _defining(state, curves)
     point = row[window]

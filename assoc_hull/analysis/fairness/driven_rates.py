@@ -21,16 +21,14 @@ __all__ = ["driven_rates", "follow"]
 _BESIDE = 6
 """So many points of its curve on either side move a computed point."""
 
-_LEAST = 1e-2
-"""Smaller rates are left out: a tenth of it changed what is left of noise by 1e-4."""
-
 _DEEPEST = 32
 """Computed points of computed points of ... so often; a net has four or five."""
 
 
 def driven_rates(
-    state: HullState, curves: IntArray, batch: SplineBatch, normals: FloatArray, moves: FloatArray
-) -> csr_array:
+    state: HullState, curves: IntArray, batch: SplineBatch, normals: FloatArray,
+    moves: FloatArray, least: float,
+) -> csr_array:  # fmt: skip
     """Give how much each computed or riding point moves with each point beside it, (rows, rows).
 
     Parameters
@@ -41,13 +39,15 @@ def driven_rates(
         All curves, their shapes, and the normals of their planes, nan where there is none.
     moves : (rows, 3)
         Where a unit displacement leads each point; zero for those that stay.
+    least : float
+        Smaller rates are left out.
     """
     size = len(moves)
     square = (moves * moves).sum(axis=1)
     back = moves / np.where(square > 0.0, square, 1.0)[:, None]
     parts = [_computed(state, curves, batch, normals, moves, back), _riding(state, moves, back)]
     row, column, rate = (np.concatenate(each) for each in zip(*parts, strict=True))
-    some = np.abs(rate) > _LEAST
+    some = np.abs(rate) > least
     return csr_array(coo_array((rate[some], (row[some], column[some])), shape=(size, size)))
 
 

@@ -244,7 +244,9 @@ def hold_sums(solution: FairSolution, sums: FloatArray, errors: FloatArray) -> F
     errors : (m,)
         By how much the sums are to be less than they are.
     """
-    inside = sums * (solution.side == 0)
-    answer = solution.solve(inside.T)
-    force = np.linalg.solve(inside @ answer, errors)
+    free = solution.side == 0
+    inside = sums * free
+    answer = solution.solve(inside.T) * free[:, None]
+    # Of sums that nothing here changes, nothing is asked.
+    force = np.linalg.lstsq(inside @ answer, errors)[0]
     return attrs.evolve(solution, displacement=solution.displacement - answer @ force)

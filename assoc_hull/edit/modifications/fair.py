@@ -77,6 +77,9 @@ may be short numbers by themselves."""
 _MEDIAN_POINTS, _LEAST_RESIDUALS = 12, 100
 """Lines and nets with fewer points do not tell noise from shape."""
 
+_NAMED = 5
+"""So many points a message names."""
+
 _HOLDS, _VOLUME_OFF, _LCB_OFF = 6, 1e-8, 1e-6
 """So often sums are corrected; a part of the volume, and m."""
 
@@ -177,6 +180,15 @@ class Faired:
     stayed: Mapping[str, int]
     problem: BattenProblem = attrs.field(repr=False)
 
+    @property
+    def note(self) -> str:
+        """What the history tells of it, in a line."""
+        moved = f"rms {1e3 * self.moved_rms:.2f} mm, largest {1e3 * self.moved_largest:.2f} mm"
+        return (
+            f"faired by a noise of {1e3 * self.noise:.3g} mm, {self.source}: "
+            f"{self.unknowns} points could move, {moved}"
+        )
+
     def estimated_noise(self, factor: float = 1.0) -> float:
         """Estimate the noise of the points that could move from their lines, m."""
         return estimate_noise(self.problem, factor)
@@ -227,6 +239,7 @@ def fair(edit: Transaction, asked: FairRequest) -> Faired:
         moves = edit.pending.ask(FieldMoves)
         moves.fields.append(SolvedField(rows, delta))
         moves.faired.append((rows, more))
+        edit.pending.notes.append(found.note)
     return found
 
 
@@ -428,14 +441,17 @@ def _held(
         if not (solution.side == 0).any():
             break
         solution = hold_sums(solution, np.array(sums), np.array(errors))
-        solution = attrs.evolve(
-            solution, displacement=np.clip(solution.displacement, -limit, limit)
-        )
-    bound = int((solution.side != 0).sum())
+        d = np.clip(solution.displacement, -limit, limit)
+        side = np.where(np.abs(d) >= limit, np.sign(d), 0.0).astype(np.int64)
+        solution = attrs.evolve(solution, displacement=d, side=side)
+    bound = np.flatnonzero(solution.side)
+    rows = given.problem.rows[bound[:_NAMED]].tolist()
+    names = ", ".join(address(state, row) for row in rows) + (" ..." if len(bound) > _NAMED else "")
+    ends = f", {len(bound)} points are at their bound ({names})" if len(bound) else ""
     raise BadInputError(
         f"{' and '.join(hold)} cannot be held: volume is off by {off[0]:.2g} of it and LCB by "
-        f"{1e3 * off[1]:.2g} mm after {_HOLDS} rounds, {bound} points are at their bound", _WHERE,
-        "give a larger tolerance, or hold less",
+        f"{1e3 * off[1]:.2g} mm after {_HOLDS} rounds{ends}", _WHERE,
+        "let more points move (lines, a wider window, a larger tolerance), or hold less",
     )  # fmt: skip
 
 

@@ -400,7 +400,7 @@ def _turned(slope: FloatArray, vectors: FloatArray) -> FloatArray:
 
 
 def carry_directions(work: TransformationState, journal: Journal) -> set[int]:
-    """Turn the given directions of points with the mapping; give the curves they change."""
+    """Turn given directions of points with the mapping, and what fairing did; give the curves."""
     table, changed = work.state.rows, set[int]()
     for side, (rows, new) in enumerate(turned_directions(work)):
         if len(rows):
@@ -408,7 +408,17 @@ def carry_directions(work: TransformationState, journal: Journal) -> set[int]:
             both[:, side] = new
             journal.put(table.direction, rows, both)
             changed |= set(table.curve[rows, side].tolist())
+    _carry_faired(work, journal)
     return changed - {-1}
+
+
+def _carry_faired(work: PointImages, journal: Journal) -> None:
+    """Let the values that were given for faired points go with the mapping, as the points do."""
+    column = work.state.rows.faired
+    rows = np.flatnonzero(column.data.any(axis=1) & work.state.rows.alive.data)
+    if len(rows):
+        given = column.take(rows)
+        journal.put(column, rows, (work.slope[rows] * given[:, None, :]).sum(axis=2))
 
 
 def turned_directions(

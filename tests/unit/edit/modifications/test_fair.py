@@ -90,6 +90,16 @@ def test_fairing_again_is_fairing_once(name: str, shipped: Shipped) -> None:
     assert max(errors) <= 1.01 * errors[0]
 
 
+@pytest.mark.parametrize("name", ["plain_ship", *(["bulk_carrier_180m"] if LONG else [])])
+def test_points_that_a_feature_is_computed_from_stay(name: str, shipped: Shipped) -> None:
+    """A straight run whose crossings other lines carry was bent off itself by 32 micrometres."""
+    hull = shipped(name)
+    features = [*hull.features]
+    report = hull.fair(noise=1e-3)
+    assert [*hull.features] == features
+    assert report.found.stayed["that lead points of a feature"] > 5
+
+
 def test_the_order_of_creation_changes_no_bit(shipped: Shipped, tmp_path: Path) -> None:
     """A hull from text has its points in another order, and comes out the same."""
     hull = shipped("series60_70")
@@ -156,6 +166,24 @@ def test_a_point_that_is_set_by_hand_is_given_there() -> None:
     assert np.array_equal(hull.state.rows.faired.data, faired)
     hull.undo()
     assert hull.state.rows.faired.data[point.row].any()
+
+
+@pytest.mark.parametrize("factor", [2.0, 0.5])
+def test_a_transformation_carries_what_was_given(factor: float) -> None:
+    """A faired hull of another size is faired by the noise of that size."""
+    hull = ah.examples.wigley()
+    put_noise(hull, WIDTH)
+    hull.fair(noise=NOISE)
+    faired = hull.state.rows.faired.data.copy()
+    with hull.edit("another size") as edit:
+        edit.transform(scale=[factor] * 3, drivers=["sections", "profile"], planes="follow")
+    size = len(faired)
+    assert hull.state.rows.faired.data[:size] == pytest.approx(factor * faired, abs=1e-12)
+    before = hull.state.rows.xyz.data.copy()
+    hull.fair(noise=factor * NOISE)
+    assert displaced(hull, before) < 0.02 * factor * NOISE
+    hull.undo(2)
+    assert np.array_equal(hull.state.rows.faired.data[:size], faired)
 
 
 def test_since_a_checkpoint_points_are_given_where_they_were_there() -> None:
@@ -262,6 +290,21 @@ def test_volume_and_centre_are_held(name: str, shipped: Shipped) -> None:
     before = even_keel_displacement(hull.state)
     hull.fair(noise=1e-3, hold=["volume", "lcb"])
     after = even_keel_displacement(hull.state)
+    assert abs(after.volume / before.volume - 1.0) <= 1e-8
+    assert abs(after.lcb - before.lcb) <= 1e-6
+
+
+def test_what_cannot_be_held_is_said_and_the_hull_stays(shipped: Shipped) -> None:
+    """A line above the draught moves volume a little, and gives nothing to correct it with."""
+    hull = shipped("series60_70")
+    print_ = hull.fingerprint
+    with pytest.raises(BadInputError, match=r"cannot be held: volume is off by .*let more points"):
+        hull.fair(["WL 1.25"], noise=1e-3, hold=["volume", "lcb"])
+    assert hull.fingerprint == print_
+    before = even_keel_displacement(hull.state)
+    report = hull.fair(["WL 0.5"], noise=1e-3, tolerance=0.5e-3, hold=["lcb", "volume"])
+    after = even_keel_displacement(hull.state)
+    assert report.at_bound
     assert abs(after.volume / before.volume - 1.0) <= 1e-8
     assert abs(after.lcb - before.lcb) <= 1e-6
 
