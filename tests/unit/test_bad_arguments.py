@@ -942,21 +942,21 @@ def test_two_hulls_are_compared_by_good_values(hull: ah.Hull, name: str) -> None
     assert set(inspect.signature(ah.variation.compare).parameters) == set(given)
 
 
-@pytest.mark.parametrize("name", ["of", "lines", "allowed", "offsets", "tolerances"])
+@pytest.mark.parametrize("name", ["of", "lines", "allowed", "offsets", "tolerances", "noise"])
 def test_fairness_is_asked_for_with_good_values(hull: ah.Hull, name: str) -> None:
     """Of a hull and of a plane curve: an error of the family or a result."""
     before = hull.fingerprint
     curve = PlaneArcs.make([(0.0, 0.0)], [0.0], [0.1], [3.0])
-    of_hull: Given = {"of": hull, "lines": ["WL 2.5"], "allowed": 0, "offsets": None}
-    of_curve: Given = {"of": curve, "lines": None, "allowed": 0, "offsets": [(1.0, 0.1)]}
+    of_hull: Given = {"of": hull, "lines": ["WL 2.5"], "offsets": None, "noise": 1e-3}
+    of_curve: Given = {"of": curve, "lines": None, "offsets": [(1.0, 0.1)], "noise": None}
     for given in (of_hull, of_curve):
-        given = {**given, "tolerances": 0.005}
+        given = {**given, "allowed": 0, "tolerances": 0.005}
         assert not call(ah.form.fairness, given)
         for trial in spoilt(given, name):
             with trial as bad:
                 call(ah.form.fairness, bad)
     assert hull.fingerprint == before
-    assert set(inspect.signature(ah.form.fairness).parameters) == {*of_hull, "tolerances"}
+    assert set(inspect.signature(ah.form.fairness).parameters) == set(given)
 
 
 @pytest.mark.parametrize("name", ["groups", "lines", "points", "crossings"])
