@@ -312,7 +312,8 @@ def fairness(
     if lines is not None:
         raise BadInputError("lines of one curve", _WHERE, "give names of lines with a hull only")
     if noise is not None:
-        raise BadInputError("noise of one curve", _WHERE, "give noise with a hull or its lines only")
+        what, remedy = "noise of one curve", "give noise with a hull or its lines only"
+        raise BadInputError(what, _WHERE, remedy)
     pieces, name = _pieces_of(of)
     points = None if offsets is None else OffsetDeviations.measured(pieces, offsets, tolerances)
     wanted = _count(allowed)
