@@ -83,6 +83,10 @@ SMALL = ah.examples.wigley(stations=5, waterlines=4)
 
 Given = dict[str, Any]
 
+FAIR: Given = {
+    "lines": [LINE], "noise": 1e-3, "tolerance": None, "at": POINT, "radius": (20.0, 5.0),
+    "keep": (), "hold": (), "since": None,
+}  # fmt: skip
 HULL: dict[str, Given] = {
     "from_lines": {
         "lines": [], "particulars": ah.Particulars("a", 1.0, 1.0, 1.0, 1.0),
@@ -99,6 +103,8 @@ HULL: dict[str, Given] = {
         "point": POINT, "how": "pull", "radius": (20.0, 5.0), "across_flats": False,
         "policy": "all_or_nothing", "gaps": "refuse",
     },
+    "fair": {**FAIR, "name": "a", "dry_run": True},
+    "fair_window": {"at": POINT, "radius": (20.0, 5.0)},
     "shapes": {},
     "since": {"number": 0},
     "apply": {"name": "a", "edits": []},
@@ -124,16 +130,19 @@ HULL: dict[str, Given] = {
                "scale": None, "half": False, "points": None, "accept": False},
 }  # fmt: skip
 EDIT: dict[str, Given] = {
+    "fair": FAIR,
     "move": {"point": POINT, "x": None, "y": 3.0, "z": None, "by": None},
     "insert": {"curve": LINE, "place": PLACE},
     "delete": {"point": POINT},
     "set_kind": {"point": POINT, "kind": "tangent", "direction": (1.0, 0.0, 0.0)},
     "pin": {"point": POINT},
     "unpin": {"point": POINT},
-    "pull": {"point": POINT, "d": 0.01, "radius": (20.0, 5.0), "across_flats": False},
+    "pull": {
+        "point": POINT, "d": 0.01, "radius": (20.0, 5.0), "across_flats": False, "fair": False,
+    },
     "reshape": {
         "curve": LINE, "points": [PLACE], "span": (30.0, 60.0), "fade": "auto",
-        "across_flats": False,
+        "across_flats": False, "fair": False,
     },
     "straighten": {"line": LINE, "a": POINT, "b": "WL 2.5 x ST 5", "fade": "auto"},
     "round": {
@@ -484,7 +493,7 @@ FLOATING: dict[str, Given] = {
     "deck_edge_angle": {"position": FloatingPosition(4.0, 4.0), "appendages": (), **TWO},
     "bonjean": {"levels": 5},
     "section_points": {"x": 40.0, "points": 5, **ONE},
-    "fairness": {"lines": ["WL 2.5"], "allowed": 0},
+    "fairness": {"lines": ["WL 2.5"], "allowed": 0, "noise": 1e-3},
     "doctor": {"top": 3, "noise": 1e-3},
     "compare": {"variant": SMALL, "draught": None, "screw": None},
     "mesh": {"half": False, "points": 2, "leave_out": ()},

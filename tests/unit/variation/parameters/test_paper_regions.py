@@ -53,12 +53,12 @@ def test_what_is_not_named_is_read_off_the_hull(ship: Parent) -> None:
 
 def test_a_change_reaches_as_far_as_its_length(ship: Parent) -> None:
     """The shaft's to BX1, half-way by the cubic half as far, full up to the boss or BX0."""
-    places = [[-5.0, 0, 5], [6, 0, 5], [33, 0, 5], [60, 0, 5], [90, 0, 5]]
+    places = [[x, 0.0, 5.0] for x in (-5.0, 6.0, 33.0, 60.0, 90.0)]
     lift = [row[2] for row in moved(ship, {"shaft_height": 6.0}, places, BX1=60.0)]
     assert lift == pytest.approx([1.0, 1.0, 0.5, 0.0, 0.0], abs=1e-12)
     lift = [row[2] for row in moved(ship, {"shaft_height": 6.0}, places, BX0=33.0, BX1=90.0)]
     assert lift[:3] == pytest.approx([1.0] * 3, abs=1e-12)
-    ends = [[255.0, 0, 7], [277.5, 0, 7], [300, 0, 7], [306, 0, 7]]
+    ends = [[x, 0.0, 7.0] for x in (255.0, 277.5, 300.0, 306.0)]
     lift = [row[2] for row in moved(ship, {"bulb_height": 7.4}, ends, EX1=255.0)]
     assert lift == pytest.approx([0.0, 0.2, 0.4, 0.4], abs=1e-12)
 
