@@ -106,7 +106,7 @@ class Transaction:
     @property
     def active(self) -> bool:
         """Whether a ``with`` block is open."""
-        return self._depth > 0
+        return self._depth > 0 and not self._over
 
     @property
     def state(self) -> HullState:
@@ -283,23 +283,24 @@ class Transaction:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        # The depth is counted down last: an interrupt at any line here must find it as it was.
         try:
             try:
-                self._depth -= 1
                 if error is not None:
                     self._broken = True
                     self._restore()
-                elif not self._depth:
+                elif self._depth == 1:
                     self._over, self.document.writer = True, None
                     with PausedCollector():
                         self._finish()
             finally:
-                if not self._depth:
+                if self._depth == 1:
                     self._over, self.face = True, None  # else a ring would keep the hull open
                     self._end()
         finally:  # once more, should an interrupt come just there: it may be done twice
-            if not self._depth:
+            if self._depth == 1:
                 self._end()
+            self._depth -= 1
 
     def _finish(self) -> None:
         """Run the update and publish it; whatever goes wrong before, the hull is as it was."""
@@ -364,4 +365,5 @@ class Transaction:
         Broken off at any line, it may be run again.
         """
         self.take_back()
+        self.pending = Pending()  # who may stop it holds a drag, and that holds this edit
         self._taken_back = True
