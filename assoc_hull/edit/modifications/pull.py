@@ -18,7 +18,6 @@ from assoc_hull.edit.displacement_field import (
     row_spacing,
 )
 from assoc_hull.edit.field_moves import FieldMoves
-from assoc_hull.edit.modifications.fair_answer import FairAnswer, PullAsked
 from assoc_hull.edit.published_program import known_numbers
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, PointRoleError
@@ -77,6 +76,9 @@ def pull(
         what = "a fair answer keeps flats as they are"
         raise BadInputError(what, "in pull", "leave fair or across_flats out")
     if fair and amount != 0.0:
+        # What solves sparse systems is imported by whoever asks for it.
+        from assoc_hull.edit.modifications.fair_answer import FairAnswer, PullAsked
+
         asked = PullAsked(_points_held(edit, row), amount, field.place, field.radius)
         FairAnswer.of(edit).asked.append(asked)
     elif amount != 0.0:

@@ -30,7 +30,6 @@ from assoc_hull.edit.displacement_field import (
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.hull_normals import normals_at
 from assoc_hull.edit.lines.line_planes import checked_in_planes
-from assoc_hull.edit.modifications.fair_answer import FairAnswer, ShapeAsked
 from assoc_hull.edit.modifications.points import pin
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
@@ -330,6 +329,9 @@ def _ask_fairly(
     edit: Transaction, curve: int, shape: FloatArray, span: tuple[float, float]
 ) -> list[int]:
     """Ask for a fair answer; give the placed points that were made where the curve has none."""
+    # What solves sparse systems is imported by whoever asks for it.
+    from assoc_hull.edit.modifications.fair_answer import FairAnswer, ShapeAsked
+
     state = edit.state
     made: list[int] = []
     asked: list[int] = []

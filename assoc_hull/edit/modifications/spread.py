@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import attrs
 import numpy as np
-from scipy.optimize import brentq
 
 from assoc_hull.edit.displacement_field import quintic_fade
 from assoc_hull.edit.hull_normals import normals_at
@@ -21,6 +20,7 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
+from assoc_hull.geometry.numeric.roots import brent_root
 from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Sort
@@ -282,4 +282,4 @@ def _crossed(
         name = address(state, int(asked.rows[place]))
         what = f"{name} would pass a neighbouring point"
         raise BadInputError(what, asked.where, "give more length: the hollow is shallower then")
-    return float(brentq(height, low, high, xtol=1e-13, rtol=1e-15))
+    return brent_root(height, low, high, xtol=1e-13)
