@@ -84,8 +84,8 @@ def _table(arguments: argparse.Namespace) -> tuple[DoctorReport, str]:
         arguments.file, top=arguments.top, centre=arguments.centre, mend=arguments.mend,
         replace=arguments.replace,
     )  # fmt: skip
-    missed = arguments.mend is not None and not found.written
-    return found, f"\nno slip is called: {arguments.mend} was not written" if missed else ""
+    same = arguments.mend is not None and not found.alarms
+    return found, f"\nno slip is called: {arguments.mend} is the table as it is" if same else ""
 
 
 def _net(arguments: argparse.Namespace) -> tuple[NetDoctorReport, str]:

@@ -221,12 +221,14 @@ class Pending:
     @property
     def empty(self) -> bool:
         """Whether no modification is there that takes more than places and recipes."""
-        return all(each.idle for each in self.modifications.values())
+        return self.answer is None and all(each.idle for each in self.modifications.values())
 
     @property
     def displaces(self) -> bool:
         """Whether a modification moves points that were not asked for one by one."""
-        return any(each.displaces for each in self.modifications.values())
+        return self.answer is not None or any(
+            each.displaces for each in self.modifications.values()
+        )
 
     @staticmethod
     def not_alone(name: str) -> tuple[str, str, str]:

@@ -330,7 +330,7 @@ class Transaction:
     def _idle(self) -> bool:
         """Tell whether all that was asked for is so already: then there is nothing to undo."""
         pending, xyz = self.pending, self.state.rows.xyz.data
-        if pending.curves or pending.computed or not pending.empty or pending.answer is not None:
+        if pending.curves or pending.computed or not pending.empty:
             return False
         asked = [
             xyz[row].tobytes() == (value + 0.0).tobytes() for row, value in pending.values.items()

@@ -100,7 +100,7 @@ class FairWindow:
         self._given: GivenBattens | None = None
         self._of: HullState | None = None
         self._frame: FairFrame | None = None
-        self._prepared()
+        self._prepared(radius)
 
     def to(
         self, *, noise: float | None = None, radius: tuple[float, float] | None = None
@@ -118,11 +118,8 @@ class FairWindow:
             noise = self._frame.noise
         else:
             raise BadInputError("the noise is not stated", _WHERE, "give noise=, in m")
-        if radius is not None:
-            reach = pair(radius, "radius", _WHERE, positive=True)
-            if reach != self.radius:
-                self.radius, self._given = reach, None
-        given, state = self._prepared()
+        reach = self.radius if radius is None else pair(radius, "radius", _WHERE, positive=True)
+        given, state = self._prepared(reach)
         problem = given.problem
         limit = tolerances_of(state, problem, FairRequest(), noise) * problem.freedom
         with _linear_algebra().limit(limits=1):
@@ -137,12 +134,15 @@ class FairWindow:
         )
         return self._frame
 
-    def _prepared(self) -> tuple[GivenBattens, HullState]:
-        """Give the problem of the window, for the hull as it is published."""
+    def _prepared(self, radius: tuple[float, float]) -> tuple[GivenBattens, HullState]:
+        """Give the problem of a window of the published hull, and keep it.
+
+        A window that is refused leaves the one before.
+        """
         state = self.document.state.published()
-        if self._given is None or self._of is not state:
-            self._given = given_values(self.document, FairRequest(at=self.at, radius=self.radius))
-            self._of = state
+        if self._given is None or self._of is not state or radius != self.radius:
+            given = given_values(self.document, FairRequest(at=self.at, radius=radius))
+            self._given, self._of, self.radius = given, state, radius
         return self._given, state
 
     def commit(self, name: str = "fair") -> FairReport:
@@ -151,13 +151,16 @@ class FairWindow:
         Raises
         ------
         BadInputError
-            No step was made, or an edit is open.
+            No step was made, or the hull was edited since; or an edit is open.
         RefusedEditError
             The hull would not be consistent; it is unchanged.
         """
         frame = self._frame
         if frame is None:
             raise BadInputError("no step was made", _WHERE, "call to(noise=...) first")
+        if frame.state is not self.document.state.published():
+            what = "the hull has been edited since the last step"
+            raise BadInputError(what, _WHERE, "call to() again, and look at what it gives")
         return fair_hull(
             self.document,
             lambda edit: edit.fair(noise=frame.noise, at=self.at, radius=frame.radius),

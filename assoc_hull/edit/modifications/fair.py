@@ -234,6 +234,11 @@ def fair(edit: Transaction, asked: FairRequest) -> Faired:
     RefusedEditError
         The hull that is tried to hold them would be refused.
     """
+    before = edit.pending.asked(FieldMoves)
+    if before is not None and before.faired:
+        # Each is solved for the published hull: together they would move it twice.
+        what = "fairing is asked for twice in one edit"
+        raise BadInputError(what, _WHERE, "name all lines in one call, or use two edits")
     found, rows, delta, more = solve_fair(edit.document, asked)
     if len(rows):
         moves = edit.pending.ask(FieldMoves)

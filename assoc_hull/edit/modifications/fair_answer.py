@@ -20,7 +20,10 @@ from assoc_hull.analysis.fairness.least_change import LeastChange
 from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.displacement_field import (
     PointDisplacements,
+    PullField,
     SolvedField,
+    on_flat,
+    on_profile,
     quintic_fade,
     sub_step_count,
 )
@@ -49,6 +52,9 @@ _HEAVIER = (6.0, 6.0, 6.0, 2.5, 2.5, 1.6, 1.6)
 """How much more lines weigh that gained a sign change, one solve after the other, before an answer
 is carried out. The later ones find what lies between two lines that gain in turns."""
 
+_AGAIN, _NEARLY = 5, 0.01
+"""So often a pull of a point that is carried is mended, until it comes so near to its goal."""
+
 _LOBES = (0.2, 1.0)
 """Least turns, degrees, of the lobes that are counted."""
 
@@ -67,8 +73,22 @@ class Asked(Protocol):
     """Displacements of points that an edit asks for, and how the answer fades around them."""
 
     @property
+    def name(self) -> str:
+        """What was asked for, as errors call it."""
+
+    @property
     def rows(self) -> IntArray:
         """The points."""
+
+    def lacking(self, state: HullState) -> float:
+        """Give by what what is asked of the points is to be multiplied; 1 where it is there."""
+
+    @property
+    def point(self) -> int:
+        """The point that was named, or one of them."""
+
+    def times(self, factor: float) -> Asked:
+        """Ask for that."""
 
     def goals(self, state: HullState, moves: FloatArray) -> FloatArray:
         """Give where they are to come, (k, 3), m; `moves` (k, 3) are theirs for 1 m of normal."""
@@ -89,20 +109,36 @@ class PullAsked:
 
     Attributes
     ----------
+    name : str
+        The address of the point.
     rows : (k,) int
         The point, or those that hold the curves that carry it.
+    field : PullField
+        The pull; its radius is that of the first turn.
     amount : float, m
-        Outward positive.
-    place : (3,), m
-        The middle of the fade.
-    radius : (float, float), m
-        Along the length and the girth, of the first turn.
+        By how much the points are to come out, so that the point comes as far as it is pulled.
     """
 
+    name: str
     rows: IntArray
+    field: PullField
     amount: float
-    place: FloatArray
-    radius: tuple[float, float]
+
+    def lacking(self, state: HullState) -> float:
+        """Give the pull over how far a point that is carried has come."""
+        if self.field.row in self.rows:
+            return 1.0
+        reached = self.field.reached(state)
+        return self.field.amount / reached if reached * self.field.amount > 0.0 else 1.0
+
+    @property
+    def point(self) -> int:
+        """The point that is pulled."""
+        return self.field.row
+
+    def times(self, factor: float) -> PullAsked:
+        """Ask for so many times the displacement."""
+        return attrs.evolve(self, amount=factor * self.amount)
 
     def goals(self, state: HullState, moves: FloatArray) -> FloatArray:
         """Give where the points are to come, (k, 3), m."""
@@ -111,15 +147,16 @@ class PullAsked:
 
     def fade(self, state: HullState, xyz: FloatArray, turn: int) -> FloatArray:
         """Fade along the length and the girth."""
-        factor, step = _FACTORS[min(turn, len(_FACTORS) - 1)], xyz - self.place
+        factor, step = _FACTORS[min(turn, len(_FACTORS) - 1)], xyz - self.field.place
         girth = np.sqrt(step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
-        along = quintic_fade(step[:, 0] / (factor * self.radius[0]))
-        return along * quintic_fade(girth / (factor * self.radius[1]))
+        along = quintic_fade(step[:, 0] / (factor * self.field.radius[0]))
+        return along * quintic_fade(girth / (factor * self.field.radius[1]))
 
     def reach(self, turn: int) -> str:
         """Say the radii."""
         factor = _FACTORS[min(turn, len(_FACTORS) - 1)]
-        return f"{factor * self.radius[0]:.1f} x {factor * self.radius[1]:.1f} m"
+        along, girth = self.field.radius
+        return f"{factor * along:.3g} x {factor * girth:.3g} m"
 
 
 _RADII = (1.0, 1.5, 2.5, 4.0, 6.0, 9.0, 14.0)
@@ -135,6 +172,8 @@ class ShapeAsked:
 
     Attributes
     ----------
+    name : str
+        The line.
     rows, to : (k,) int, (k, 3), m
         Points of the line, and where they are to come.
     curve : int
@@ -145,11 +184,25 @@ class ShapeAsked:
         Of a section: the radii are multiples of three such spacings along the length.
     """
 
+    name: str
     rows: IntArray
     to: FloatArray
     curve: int
     stretch: tuple[float, float]
     spacing: float | None
+
+    @property
+    def point(self) -> int:
+        """One of its points."""
+        return int(self.rows[0])
+
+    def lacking(self, state: HullState) -> float:
+        """Nothing: the points land in their places."""
+        return 1.0
+
+    def times(self, factor: float) -> ShapeAsked:
+        """Ask for the same."""
+        return self
 
     def goals(self, state: HullState, moves: FloatArray) -> FloatArray:
         """Give the places."""
@@ -277,11 +330,45 @@ class FairAnswer:
             what = "a point that is asked to move has gone in the same edit"
             where = f"in the edit {self.edit.name!r}"
             raise BadInputError(what, where, "use two edits")
+        self._refuse_changed(np.concatenate([every, [each.point for each in self.asked]]))
         self.asked.sort(key=_order)
-        search = _Search.of(self.edit, self.asked, before)
-        best = search.find()
-        search.carry_out(best)
-        self.edit.notes += search.notes(best)
+        keep, lacks = self.edit.stages, 1.0
+        for _ in range(_AGAIN):
+            search = _Search.of(self.edit, self.asked, before)
+            if not search.moves:
+                return
+            best = search.find()
+            search.carry_out(best)
+            # Several pulls add: then none of their points goes where one of them pulls.
+            lacks = self.asked[0].lacking(state) if len(self.asked) == 1 else 1.0
+            if abs(lacks - 1.0) <= _NEARLY:
+                self.edit.notes += search.notes(best)
+                return
+            # A point that is carried comes less far than those that hold its curves.
+            self.asked = [each.times(lacks) for each in self.asked]
+            self.edit.take_back(keep)
+        short = (
+            f"{self.asked[0].name} came {100.0 / lacks:.0f} % of the way along the normal that was "
+            "asked: pull a point beside it, or by less"
+        )
+        raise RefusedEditError(self.edit.name, (short,))
+
+    def _refuse_changed(self, rows: IntArray) -> None:
+        """Refuse points whose lines or role the same edit has changed, before or after it asked.
+
+        Raises
+        ------
+        BadInputError
+            Naming the first one.
+        """
+        state = self.edit.state
+        was = self.edit.document.state.published()
+        for row in np.unique(rows[rows < was.rows.count]).tolist():
+            if was.rows.alive[row] and _stands(was, row) != _stands(state, row):
+                raise BadInputError(
+                    "a point is pulled or led fairly and its line or role is changed in one edit",
+                    address(state, row), "use two edits",
+                )  # fmt: skip
 
 
 @attrs.define(eq=False)
@@ -308,12 +395,16 @@ class _Search:
         problem, normals = net_battens(state, rows), hull_normals(state)
         order = np.argsort(problem.rows)
         index = order[np.searchsorted(problem.rows[order], rows)]
-        lost = rows[problem.freedom[index] < state.tolerances.field_normal]
-        if len(lost):
-            raise PointRoleError(
-                address(state, int(lost[0])), "free almost along the hull only, or held", None,
-                "pull another point, or leave fair=True out",
-            )  # fmt: skip
+        slack = problem.freedom[index] < state.tolerances.field_normal
+        fixed = (on_profile(state) | on_flat(state))[rows]
+        for lost, kind in (
+            (fixed, "on a flat or on the profile, which a fair answer leaves as they are"),
+            (slack, "free almost along the hull only"),
+        ):
+            if lost.any():
+                first = int(rows[lost][0])
+                name = next(each.name for each in asked if first in each.rows.tolist())
+                raise PointRoleError(name, kind, None, "ask for another point")
         places = _places(state, asked, rows, problem.moves[index])
         step = places - state.rows.xyz[rows]
         sub_step_count(state, PointDisplacements(rows, step, rows[:0]))  # refuses what is too far
@@ -322,6 +413,11 @@ class _Search:
             edit, asked, _SignChanges(before), edit.stages, problem,
             LeastChange(problem, index, amount), rows, places,
         )  # fmt: skip
+
+    @property
+    def moves(self) -> bool:
+        """Whether anything is asked for that is not so already."""
+        return bool((self.places != self.edit.state.rows.xyz[self.rows]).any())
 
     def find(self) -> _Trial:
         """Give the first answer that is fair, by scale and radius; else the fairest that is found.
@@ -403,6 +499,8 @@ class _Search:
         moved = (xyz != state.rows.xyz.data).any(axis=1)
         live = state.live("curves").tolist()
         through = [curve for curve in live if moved[state.curves.rows.data[curve]].any()]
+        if not through:
+            return {}
         curves = np.array(through, np.int64)
         data = curve_data(state, curves)
         points = np.concatenate([state.curves.rows.data[curve] for curve in curves.tolist()])
@@ -463,6 +561,17 @@ class _Search:
                 f"{line} has {now} changes of the sign of curvature, {was} before: where it is "
                 f"straight, {1e3 * deepest:.0f} mm want a radius of {_STRAIGHT * deepest:.0f} m"
             )
+
+
+def _stands(state: HullState, row: int) -> tuple[object, ...]:
+    """Give what a point is, and the planes of its lines."""
+    table = state.rows
+    lines = [state.line_of(curve) for curve in table.curve[row].tolist() if curve >= 0]
+    planes = [(state.lines.offset[line], *state.lines.normal[line].tolist()) for line in lines]
+    return (
+        int(table.role[row]), int(table.driver[row]), int(table.sort[row]),
+        tuple(table.curve[row].tolist()), str(planes),
+    )  # fmt: skip
 
 
 def _order(each: Asked) -> tuple[str, list[int]]:

@@ -79,7 +79,8 @@ def pull(
         # What solves sparse systems is imported by whoever asks for it.
         from assoc_hull.edit.modifications.fair_answer import FairAnswer, PullAsked
 
-        asked = PullAsked(_points_held(edit, row), amount, field.place, field.radius)
+        name = address(edit.state, row)
+        asked = PullAsked(name, _points_held(edit, row), field, amount)
         FairAnswer.of(edit).asked.append(asked)
     elif amount != 0.0:
         edit.pending.ask(FieldMoves).fields.append(field)

@@ -351,7 +351,8 @@ def _ask_fairly(
     section = state.family(state.line_of(curve)).axis == 0
     spacing = _station_spacing(state) if section else None
     rows = np.array(asked, np.int64)
-    FairAnswer.of(edit).asked.append(ShapeAsked(rows, shape, curve, span, spacing))
+    name = str(state.lines.name[state.line_of(curve)])
+    FairAnswer.of(edit).asked.append(ShapeAsked(name, rows, shape, curve, span, spacing))
     return made
 
 

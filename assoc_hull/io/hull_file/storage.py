@@ -163,6 +163,9 @@ class LateInflections:
         self.path, self.number, self.digest = path, number, digest
         self._found: tuple[tuple[str, int], ...] | None = None
 
+    def __repr__(self) -> str:
+        return f"LateInflections(step {self.number} of {self.path.name})"
+
     def added(self) -> tuple[tuple[str, int], ...]:
         """Give the curves with more curvature sign changes than before, and how many.
 

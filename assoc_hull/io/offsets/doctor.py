@@ -53,8 +53,8 @@ def doctor(
         From where half-breadths of one of two hulls are counted, as for `assoc_hull.read`.
     mend : path or None
         Where to write the table with all slips put right, each to the first number of one slip, or
-        to the one that its neighbours ask for; comments above it list every change. Nothing is
-        written if there is no slip.
+        to the one that its neighbours ask for; comments above it list every change. A table without
+        a slip is written as it is.
     replace : bool
         Write over a file at `mend`; the table itself is never written over.
 
@@ -85,7 +85,7 @@ def doctor(
     given = path if isinstance(path, str) and "\n" in path else _file(path)
     sheet, printed = read_printed(given, centre)
     found = examine(printed, count)
-    if mend is None or not found.alarms:
+    if mend is None:
         return found
     target = file_path(mend, "in doctor, mend")
     if found.overrun:

@@ -84,6 +84,7 @@ def mended_text(
         + (f", {slip.numbers[0].slip}" if slip.numbers else ", as its neighbours ask for")
         for slip in slips
     ]  # fmt: skip
+    told = told or ["# no slip is called: nothing was mended"]
     return "".join(f"{each}\n" for each in told) + "".join(lines)
 
 

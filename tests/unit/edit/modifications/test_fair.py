@@ -378,3 +378,31 @@ def test_a_hull_that_would_fold_is_refused_with_a_way_out(shipped: Shipped) -> N
         hull.fair(noise=2.0)
     assert "half the noise" in raised.value.findings[-1]
     assert hull.fingerprint == print_
+
+
+def test_fairing_twice_in_one_edit_is_refused() -> None:
+    """Each would be solved for the published hull, and all would move twice."""
+    hull = ah.examples.wigley()
+    before = hull.fingerprint
+    with hull.edit("x") as edit:
+        edit.fair(["sections"], noise=0.001)
+        with pytest.raises(BadInputError, match="asked for twice"):
+            edit.fair(["waterlines"], noise=0.001)
+    assert hull.fingerprint != before
+
+
+def test_a_window_that_is_refused_leaves_the_one_before() -> None:
+    """The next step goes on from it; after another edit the window is to be looked at again."""
+    hull = ah.examples.wigley()
+    window = hull.fair_window(at=(37.0, 3.0, 2.7), radius=(20.0, 4.0))
+    points = len(window.to(noise=0.001).rows)
+    with pytest.raises(BadInputError, match="nothing to move"):
+        window.to(radius=(1e-6, 1e-6))
+    assert window.radius == (20.0, 4.0)
+    assert len(window.to(noise=0.002).rows) == points
+    with hull.edit("between") as edit:
+        edit.pull("WL 2.5 x ST 14", 0.01)
+    with pytest.raises(BadInputError, match="edited since the last step"):
+        window.commit()
+    window.to(noise=0.002)
+    assert window.commit().found.noise == 0.002

@@ -233,3 +233,73 @@ def test_a_refused_fair_edit_leaves_the_hull_as_it_was(carrier: Hull) -> None:
     with carrier.edit("next") as edit:
         edit.pull("WL 9 x ST 17", 0.01, fair=True)
     assert not carrier.check()
+
+
+_CHANGES: dict[str, Callable[[Edit], object]] = {
+    "another place of its line": lambda edit: edit.shift_line("WL 2.5", 2.6),
+    "another role": lambda edit: edit.set_role(_POINT, "drives a"),
+    "a transformation": lambda edit: edit.transform(
+        scale=(1.0, 2.0, 1.0), drivers=["sections", "boundary"]
+    ),
+}
+_POINT = "WL 2.5 x ST 7"
+
+
+@pytest.mark.parametrize("change", _CHANGES)
+@pytest.mark.parametrize("first", [True, False])
+def test_what_changes_a_pulled_point_is_refused_in_any_order(change: str, *, first: bool) -> None:
+    """Two edits are asked for, and the hull is as it was."""
+    hull = ah.examples.wigley()
+    before = hull.fingerprint
+
+    def ask(edit: Edit) -> None:
+        if first:
+            _CHANGES[change](edit)
+        edit.pull(_POINT, 0.02, fair=True)
+        if not first:
+            _CHANGES[change](edit)
+
+    with pytest.raises(BadInputError, match="use two edits"), hull.edit("x") as edit:
+        ask(edit)
+    assert hull.fingerprint == before
+
+
+@pytest.mark.parametrize("amounts", [(0.02, -0.02), (1e-17,)])
+def test_what_is_so_already_is_no_step(amounts: tuple[float, ...]) -> None:
+    """Pulls that undo one another, or that are less than a bit, change nothing."""
+    hull = ah.examples.wigley()
+    before = hull.fingerprint
+    with hull.edit("nothing") as edit:
+        for amount in amounts:
+            edit.pull(_POINT, amount, fair=True)
+    with hull.edit("where it is") as edit:
+        line = hull.lines["WL 2.5"].curves[0]
+        edit.reshape(line, [hull.points[_POINT].position], span=(20.0, 50.0), fair=True)
+    assert hull.fingerprint == before
+
+
+@pytest.mark.parametrize("amount", [0.02, 0.05])
+@pytest.mark.parametrize("name", ["BTK 0.84 x ST 15.5", "BTK 0.76 x ST 15.5"])
+def test_a_carried_crossing_comes_as_far_as_it_is_pulled(
+    fresh_series60_70: Hull, name: str, amount: float
+) -> None:
+    """A watched and a driven one, within one in a hundred of what was asked."""
+    hull, state = fresh_series60_70, fresh_series60_70.document.state
+    row = hull.points[name].number
+    normal, spot = hull_normals(state)[row].copy(), state.rows.spot[row, 0].copy()
+    with hull.edit("pull") as edit:
+        edit.pull(name, amount, fair=True)
+    came = float((state.rows.spot[row, 0] - spot) @ normal)
+    assert came == pytest.approx(amount, rel=0.0101)
+    assert not hull.check()
+
+
+def test_flats_and_the_profile_are_not_led(carrier: Hull) -> None:
+    """A point on the flat of side is refused, and one on the profile, with what was asked for."""
+    place = np.array(carrier.points["WL 9 x ST 6"].position)
+    place[1] += 0.02
+    line = carrier.lines["WL 9"].curves[0]
+    with pytest.raises(PointRoleError, match="WL 9 is on a flat"), carrier.edit("x") as edit:
+        edit.reshape(line, [place], span=(70.0, 110.0), fair=True)
+    with pytest.raises(PointRoleError, match="profile"), carrier.edit("x") as edit:
+        edit.pull("ST 0.5 x profile #3", 0.02, fair=True)
