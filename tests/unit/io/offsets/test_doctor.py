@@ -93,11 +93,15 @@ def test_several_slips_are_mended_at_once_and_the_table_imports(tmp_path: Path) 
     np.testing.assert_array_equal(table.half_breadth, right.half_breadth)
 
 
-def test_nothing_is_written_where_there_is_nothing_to_mend(tmp_path: Path) -> None:
-    """A sound table, and a second call on a mended one."""
+def test_a_sound_table_is_written_as_it_is(tmp_path: Path) -> None:
+    """What stands under the name afterwards is that table, and no other's that stood there."""
     path = written(tmp_path / "table.csv", spoilt().text())
-    assert ah.doctor(path, mend=tmp_path / "mended.csv").written == ""
-    assert not (tmp_path / "mended.csv").exists()
+    (tmp_path / "mended.csv").write_text("another one")
+    found = ah.doctor(path, mend=tmp_path / "mended.csv", replace=True)
+    assert (found.alarms, found.written) == ((), str(tmp_path / "mended.csv"))
+    first, rest = (tmp_path / "mended.csv").read_text().split("\n", 1)
+    assert first == "# no slip is called: nothing was mended"
+    assert rest == path.read_text()
 
 
 def test_nothing_is_written_over(tmp_path: Path) -> None:
