@@ -6,7 +6,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 import assoc_hull as ah
-from assoc_hull.analysis.fairness.line_fairness import hull_fairness
+from assoc_hull.fairing.line_fairness import hull_fairness
 from assoc_hull.geometry.classical.chord_spline import ChordSpline, chord_splines
 from assoc_hull.geometry.classical.elastica import FREE_MODULUS, fit_amplitudes, fit_elastica
 from assoc_hull.geometry.curves import FloatArray
