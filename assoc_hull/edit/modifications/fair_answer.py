@@ -22,6 +22,7 @@ from assoc_hull.edit.displacement_field import (
     PointDisplacements,
     PullField,
     SolvedField,
+    level_with_flats,
     on_flat,
     on_profile,
     quintic_fade,
@@ -100,7 +101,7 @@ class Asked(Protocol):
         """Say what the radius is."""
 
 
-_FACTORS = (1.0, 1.5, 2.25, 3.4, 5.0, 7.6)
+_FACTORS = (1.0, 1.5, 2.25, 3.4, 5.0, 7.6, 12.0)
 
 
 @attrs.frozen(eq=False)
@@ -117,12 +118,16 @@ class PullAsked:
         The pull; its radius is that of the first turn.
     amount : float, m
         By how much the points are to come out, so that the point comes as far as it is pulled.
+    stations : float, m
+        How far the answer reaches along the length at least, after the first turn: where sections
+        stand far apart, the radius may reach none of them.
     """
 
     name: str
     rows: IntArray
     field: PullField
     amount: float
+    stations: float = 0.0
 
     def lacking(self, state: HullState) -> float:
         """Give the pull over how far a point that is carried has come."""
@@ -147,16 +152,19 @@ class PullAsked:
 
     def fade(self, state: HullState, xyz: FloatArray, turn: int) -> FloatArray:
         """Fade along the length and the girth."""
-        factor, step = _FACTORS[min(turn, len(_FACTORS) - 1)], xyz - self.field.place
+        (length, around), step = self._radius(turn), xyz - self.field.place
         girth = np.sqrt(step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
-        along = quintic_fade(step[:, 0] / (factor * self.field.radius[0]))
-        return along * quintic_fade(girth / (factor * self.field.radius[1]))
+        return quintic_fade(step[:, 0] / length) * quintic_fade(girth / around)
+
+    def _radius(self, turn: int) -> tuple[float, float]:
+        factor = _FACTORS[min(turn, len(_FACTORS) - 1)]
+        along, girth = self.field.radius
+        return factor * max(along, self.stations if turn else 0.0), factor * girth
 
     def reach(self, turn: int) -> str:
         """Say the radii."""
-        factor = _FACTORS[min(turn, len(_FACTORS) - 1)]
-        along, girth = self.field.radius
-        return f"{factor * along:.3g} x {factor * girth:.3g} m"
+        along, girth = self._radius(turn)
+        return f"{along:.3g} x {girth:.3g} m"
 
 
 _RADII = (1.0, 1.5, 2.5, 4.0, 6.0, 9.0, 14.0)
@@ -397,6 +405,7 @@ class _Search:
         index = order[np.searchsorted(problem.rows[order], rows)]
         slack = problem.freedom[index] < state.tolerances.field_normal
         fixed = (on_profile(state) | on_flat(state))[rows]
+        fixed |= level_with_flats(state, rows, normals[rows])
         for lost, kind in (
             (fixed, "on a flat or on the profile, which a fair answer leaves as they are"),
             (slack, "free almost along the hull only"),

@@ -16,6 +16,7 @@ from assoc_hull.edit.displacement_field import (
     FieldContext,
     PullField,
     row_spacing,
+    station_spacing,
 )
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.published_program import known_numbers
@@ -33,6 +34,9 @@ __all__ = ["curves_to_hold", "pull", "pull_field"]
 _NEAR = 0.15
 """Times `Tolerances.factor`: a curve with a point as near as this (m) is given no other to
 be pulled at."""
+
+_STATIONS = 2.0
+"""Spacings along the length that a fair answer reaches at least, if the first one is not fair."""
 
 
 def pull(
@@ -80,7 +84,8 @@ def pull(
         from assoc_hull.edit.modifications.fair_answer import FairAnswer, PullAsked
 
         name = address(edit.state, row)
-        asked = PullAsked(name, _points_held(edit, row), field, amount)
+        stations = 0.0 if radius is not None else station_spacing(edit.state, field.place)
+        asked = PullAsked(name, _points_held(edit, row), field, amount, _STATIONS * stations)
         FairAnswer.of(edit).asked.append(asked)
     elif amount != 0.0:
         edit.pending.ask(FieldMoves).fields.append(field)
