@@ -29,11 +29,14 @@ from assoc_hull.edit.displacement_field import (
 )
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.hull_normals import hull_normals
-from assoc_hull.edit.net_battens import net_battens
+from assoc_hull.edit.led_lines import LineLed, NetBefore, Stretch, find_stretch, second_doses
+from assoc_hull.edit.modifications.reshape import station_spacing
+from assoc_hull.edit.net_battens import fairable_rows, net_battens
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, PointRoleError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.address import address
@@ -182,6 +185,10 @@ class ShapeAsked:
         Where it may change: x; z of a section.
     spacing : float or None, m
         Of a section: the radii are multiples of three such spacings along the length.
+    girth : bool
+        Whether the stretch is measured along the section.
+    rim : (float, float) or None, m
+        How far from each end it fades; None: a part of the stretch.
     """
 
     name: str
@@ -190,6 +197,9 @@ class ShapeAsked:
     curve: int
     stretch: tuple[float, float]
     spacing: float | None
+    girth: bool = False
+    rim: tuple[float, float] | None = None
+    _known: dict[bytes, tuple[FloatArray, FloatArray]] = attrs.field(factory=dict, init=False)
 
     @property
     def point(self) -> int:
@@ -211,13 +221,29 @@ class ShapeAsked:
     def fade(self, state: HullState, xyz: FloatArray, turn: int) -> FloatArray:
         """Fade away from the line, and towards the ends of the stretch."""
         low, high = self.stretch
-        axis = 0 if self.spacing is None else 2
-        place = xyz[:, axis]
+        place, away = self._measured(state, xyz)
         inside = (place > low) & (place < high)
-        end = np.minimum(place - low, high - place).clip(0.0) / (_RIM * (high - low))
+        first, last = (_RIM * (high - low),) * 2 if self.rim is None else self.rim
+        end = np.minimum((place - low).clip(0.0) / first, (high - place).clip(0.0) / last)
         along = np.maximum(1.0 - quintic_fade(np.minimum(end, 1.0)), _LEAST)
-        away = self._away(state, xyz) / self._radius(state, turn)
-        return np.where(inside, quintic_fade(away) * along, 0.0)
+        return np.where(inside, quintic_fade(away / self._radius(state, turn)) * along, 0.0)
+
+    def _measured(self, state: HullState, xyz: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give where points lie along the stretch, and how far from the line; once for places."""
+        places = xyz.tobytes()
+        if places not in self._known:
+            self._known.clear()
+            self._known[places] = self._along(state, xyz), self._away(state, xyz)
+        return self._known[places]
+
+    def _along(self, state: HullState, xyz: FloatArray) -> FloatArray:
+        """Give where points lie along the stretch."""
+        if not self.girth:
+            place: FloatArray = xyz[:, 0 if self.spacing is None else 2]
+            return place
+        seen, spline = xyz.copy(), state.spline(self.curve)
+        seen[:, 0] = spline.xyz[0, 0]
+        return closest_points(spline, 0, seen)[0]
 
     def _away(self, state: HullState, xyz: FloatArray) -> FloatArray:
         """Give the distance from the line, seen along x at the same x; along x of a section."""
@@ -298,10 +324,13 @@ class FairAnswer:
         The edit.
     asked : list of Asked
         What is asked, in the order of the calls.
+    leads : list of LineLed
+        The curves that lead; what is asked of them is known when all else has been carried out.
     """
 
     edit: Transaction
     asked: list[Asked] = attrs.field(factory=list)
+    leads: list[LineLed] = attrs.field(factory=list)
 
     @classmethod
     def of(cls, edit: Transaction) -> FairAnswer:
@@ -325,6 +354,7 @@ class FairAnswer:
         """
         before, state = _shapes(self.edit.state), self.edit.state
         self.edit.end_stage()
+        net, stretches = NetBefore.of(state), self._lead()
         every = np.concatenate([each.rows for each in self.asked])
         if not state.rows.alive[every].all():
             what = "a point that is asked to move has gone in the same edit"
@@ -343,6 +373,7 @@ class FairAnswer:
             lacks = self.asked[0].lacking(state) if len(self.asked) == 1 else 1.0
             if abs(lacks - 1.0) <= _NEARLY:
                 self.edit.notes += search.notes(best)
+                self._tell(net, stretches)
                 return
             # A point that is carried comes less far than those that hold its curves.
             self.asked = [each.times(lacks) for each in self.asked]
@@ -352,6 +383,39 @@ class FairAnswer:
             "asked: pull a point beside it, or by less"
         )
         raise RefusedEditError(self.edit.name, (short,))
+
+    def _lead(self) -> list[Stretch]:
+        """Ask for what leads; give the stretches of all."""
+        if not self.leads:
+            return []
+        state = self.edit.state
+        rows = np.unique(np.concatenate([each.rows for each in self.leads]))
+        self._refuse_changed(rows)
+        free = fairable_rows(state)
+        self.leads.sort(key=lambda each: (each.rows.tolist(), str(each.span)))
+        stretches = [find_stretch(state, each, rows, free) for each in self.leads]
+        for each, found in zip(self.leads, stretches, strict=True):
+            spacing = None if found.along == "x" else station_spacing(state)
+            self.asked.append(
+                ShapeAsked(
+                    each.name, each.rows, each.to, each.curve, found.ends, spacing,
+                    found.along == "girth", found.rim,
+                )
+            )  # fmt: skip
+        return stretches
+
+    def _tell(self, net: NetBefore, stretches: list[Stretch]) -> None:
+        """Tell the report what led, and what followed."""
+        if not self.leads:
+            return
+        edit, state = self.edit, self.edit.state
+        pairs = list(zip(self.leads, stretches, strict=True))
+        edit.led = tuple(net.led(state, *each) for each in pairs)
+        edit.followed = net.followed(state, self.leads)
+        for (lead, stretch), led in zip(pairs, edit.led, strict=True):
+            edit.notes += net.notes(state, lead, stretch, led)
+        lines = {str(state.lines.key[state.line_of(each.curve)]): each.name for each in self.leads}
+        edit.notes += second_doses(edit.document, lines)
 
     def _refuse_changed(self, rows: IntArray) -> None:
         """Refuse points whose lines or role the same edit has changed, before or after it asked.
