@@ -10,6 +10,7 @@ all else that it asks for, so the order of its modifications changes no bit.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import product
 from typing import Protocol
 
 import attrs
@@ -52,8 +53,10 @@ _TRIALS = 14
 """So many answers are carried out at most, before the best of them is taken."""
 
 _HEAVIER = (6.0, 6.0, 6.0, 2.5, 2.5, 1.6, 1.6)
+_GENTLER = (6.0, 6.0, 2.5, 2.5, 1.6, 1.6, 1.3, 1.3, 1.15, 1.15)
 """How much more lines weigh that gained a sign change, one solve after the other, before an answer
-is carried out. The later ones find what lies between two lines that gain in turns."""
+is carried out. The later ones find what lies between two lines that gain in turns; the gentler
+series is gone through where the other has found nothing."""
 
 _AGAIN, _NEARLY = 5, 0.01
 """So often a pull of a point that is carried is mended, until it comes so near to its goal."""
@@ -491,15 +494,14 @@ class _Search:
         """
         best: _Trial | None = None
         waiting: list[_Candidate] = []
-        for scale in _SCALES:
-            for turn in range(len(_RADII)):
-                candidate = self._foretold(turn, scale)
-                if candidate.count:
-                    waiting.append(candidate)
-                    continue
-                best = self._tried(candidate, best)
-                if best is not None and not best.count:
-                    return best
+        for heavier, scale, turn in product((_HEAVIER, _GENTLER), _SCALES, range(len(_RADII))):
+            candidate = self._foretold(turn, scale, heavier)
+            if candidate.count:
+                waiting.append(candidate)
+                continue
+            best = self._tried(candidate, best)
+            if best is not None and not best.count:
+                return best
         for candidate in sorted(waiting, key=lambda each: each.count):
             if self.trials >= _TRIALS:
                 break
@@ -520,7 +522,7 @@ class _Search:
             best = _better(best, self._try(self._solved(candidate, weight)))
         return best
 
-    def _foretold(self, turn: int, scale: float) -> _Candidate:
+    def _foretold(self, turn: int, scale: float, heavier: tuple[float, ...]) -> _Candidate:
         """Give the answer of a radius that is foretold to gain the fewest sign changes."""
         self._take_back()  # what is foretold starts from the hull as it is
         problem, state = self.problem, self.edit.state
@@ -529,7 +531,7 @@ class _Search:
         weight = np.ones(len(problem.residual))
         best: _Candidate | None = None
         side: IntArray | None = None
-        for times in (*_HEAVIER, 1.0):
+        for times in (*heavier, 1.0):
             answer, side = self.least.answer(fade, scale, weight, side)
             delta = np.round(answer, _ROUNDED)
             gained = self.counts.gained(state, self._lofted(delta))
