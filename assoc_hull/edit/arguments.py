@@ -136,9 +136,8 @@ class GivenObjects:
         if isinstance(asked, str | Point):
             what, remedy = f"{shown(asked)} has no place", "give (point, (x, y, z))"
             raise BadInputError(what, "in lead", remedy)
-        pair = isinstance(asked, Sequence) and len(asked) == 2
-        if pair and isinstance(asked[0], str | Point):
-            return self.point(asked[0])[0], place(asked[1], "a place of a point", "in lead")
+        if isinstance(asked, Sequence) and len(asked) == 2 and isinstance(asked[0], str | Point):
+            return self.point(asked[0])[0], place(asked[1], "the place of a point", "in lead")
         return None, place(asked, "an item of points", "in lead")
 
     def curve(self, curve: Curve | str) -> int:

@@ -372,7 +372,7 @@ class Edit:
     def lead(
         self,
         line: Line | Curve | str,
-        points: Sequence[ArrayLike | tuple[Point | str, ArrayLike]],
+        points: ArrayLike | Sequence[ArrayLike | tuple[Point | str, ArrayLike]],
         span: tuple[float, float] | None = None,
     ) -> tuple[Point, ...]:
         """Lead a line through places; all lines around follow as fairly as they were.

@@ -41,6 +41,7 @@ from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.address import address
+from assoc_hull.model.kinds import Sort
 from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.tables import HullState
 
@@ -102,7 +103,7 @@ class Asked(Protocol):
     def fade(self, state: HullState, xyz: FloatArray, turn: int) -> FloatArray:
         """Give how far points (n, 3), m, may go, of 1, at the radius of a turn of the search."""
 
-    def reach(self, turn: int) -> str:
+    def reach(self, state: HullState, turn: int) -> str:
         """Say what the radius is."""
 
 
@@ -158,7 +159,7 @@ class PullAsked:
         along = quintic_fade(step[:, 0] / (factor * self.field.radius[0]))
         return along * quintic_fade(girth / (factor * self.field.radius[1]))
 
-    def reach(self, turn: int) -> str:
+    def reach(self, state: HullState, turn: int) -> str:
         """Say the radii."""
         factor = _FACTORS[min(turn, len(_FACTORS) - 1)]
         along, girth = self.field.radius
@@ -268,12 +269,12 @@ class ShapeAsked:
             return 3.0 * self.spacing * _FACTORS[min(turn, len(_FACTORS) - 1)]
         return _RADII[turn] * min(1.0, state.particulars.length / _FULL_SIZE)
 
-    def reach(self, turn: int) -> str:
+    def reach(self, state: HullState, turn: int) -> str:
         """Say the radius."""
         if self.spacing is not None:
             factor = _FACTORS[min(turn, len(_FACTORS) - 1)]
             return f"{3.0 * self.spacing * factor:.1f} m along the length"
-        return f"{_RADII[turn]:g} m"
+        return f"{self._radius(state, turn):g} m"
 
 
 # --------------------------------------------------------------------------------------
@@ -471,6 +472,8 @@ class _Search:
             if lost.any():
                 first = int(rows[lost][0])
                 name = next(each.name for each in asked if first in each.rows.tolist())
+                if state.rows.sort[first] == Sort.CROSSING:
+                    name = address(state, first)
                 raise PointRoleError(name, kind, None, "ask for another point")
         places = _places(state, asked, rows, problem.moves[index])
         step = places - state.rows.xyz[rows]
@@ -613,7 +616,9 @@ class _Search:
 
     def notes(self, best: _Trial) -> Iterator[str]:
         """Say what the answer is, and which lines gained sign changes."""
-        reach = ", ".join(dict.fromkeys(each.reach(best.turn) for each in self.asked))
+        reach = ", ".join(
+            dict.fromkeys(each.reach(self.edit.state, best.turn) for each in self.asked)
+        )
         deepest = float(np.abs(self.least.amount).max())
         far = np.abs(best.delta) > 1e-3
         yield (
@@ -635,7 +640,7 @@ def _stands(state: HullState, row: int) -> tuple[object, ...]:
     lines = [state.line_of(curve) for curve in table.curve[row].tolist() if curve >= 0]
     planes = [(state.lines.offset[line], *state.lines.normal[line].tolist()) for line in lines]
     return (
-        int(table.role[row]), int(table.driver[row]), int(table.sort[row]),
+        int(table.role[row]), int(table.driver[row]), table.sort[row] == Sort.CROSSING,
         tuple(table.curve[row].tolist()), str(planes),
     )  # fmt: skip
 

@@ -197,7 +197,7 @@ class _Chooser:
         if table.sort[row] == Sort.PLACED:
             x, y, z = (round(value, 6) for value in xyz.tolist())
             what = f"the placed point {address(self.state, row)} lies {away.min():.3g} m beside it"
-            remedy = f"lead that point: ({address(self.state, row)!r}, ({x:g}, {y:g}, {z:g}))"
+            remedy = f"lead that point: ({address(self.state, row)!r}, ({x}, {y}, {z}))"
             raise BadInputError(what, self.where, remedy)
         return row
 
