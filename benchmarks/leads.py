@@ -138,7 +138,7 @@ def _lead(hull: ah.Hull, curve: int, at: float, amount: float, tally: Tally) -> 
     goal = foot + amount * across / np.sqrt((across * across).sum())
     with hull.edit("on the line") as edit:
         edit.insert(key, foot)
-    before, roles = sign_changes(state), state.rows.role.data.copy()
+    before, roles = sign_changes(state), state.rows.role.data.astype(np.int64)
     hull.undo()
     tally.leads += 1
     begin = process_time()

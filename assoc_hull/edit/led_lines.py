@@ -71,6 +71,8 @@ class Stretch:
         What `ends` and `rim` are measured along.
     ends : (float, float), m
         Its ends.
+    bounds : (float, float), m
+        The same, but without bound where the end of the curve takes part.
     rim : (float, float), m
         How far from each the change fades.
     room : int
@@ -81,6 +83,7 @@ class Stretch:
 
     along: str
     ends: tuple[float, float]
+    bounds: tuple[float, float]
     rim: tuple[float, float]
     room: int
     stayed: IntArray
@@ -94,29 +97,39 @@ def find_stretch(state: HullState, led: LineLed, asked: IntArray, free: IntArray
     may = np.isin(order, free) & ~np.isin(order, asked)
     placed = (state.rows.sort.data[order] == Sort.PLACED) & ~np.isin(order, asked)
     if led.span is not None:
-        along = "z" if section else "x"
+        along, ends, bounds = ("z" if section else "x"), led.span, led.span
         place = state.rows.xyz.data[order, 2 if section else 0]
-        ends = led.span
+        inner = (place > ends[0]) & (place < ends[1])
     else:
         along, knot = ("girth" if section else "x"), state.spline(led.curve).knot
-        held = placed.copy(), _breaks(state, led.curve, order)
-        whole = float(knot[-1])
-        least = _PART_OF_GIRTH * whole if section else _PART * state.particulars.length
+        held = placed, _breaks(state, led.curve, order)
+        part = _PART_OF_GIRTH * float(knot[-1]) if section else _PART * state.particulars.length
         first, last = (
-            _walk(int(mine[side]), step, held, may, knot, 0.5 * least)
+            _walk(int(mine[side]), step, held, may, knot, 0.5 * part)
             for side, step in ((0, -1), (-1, 1))
         )
         place = knot if section else state.rows.xyz.data[order, 0]
+        inner = np.zeros(len(order), np.bool_)
+        inner[first + 1 : last] = True
         inside = place[first : last + 1]
         ends = float(inside.min()), float(inside.max())
-    low, high = ends
-    inner = (place > low) & (place < high)
+        bounds = ends
+        # An end of the line that may move takes part.
+        for end, at in ((0, first), (len(order) - 1, last)):
+            if at == end and may[at]:
+                inner[at] = True
+                bounds = (
+                    -np.inf if place[at] == ends[0] else bounds[0],
+                    np.inf if place[at] == ends[1] else bounds[1],
+                )
     at = place[mine]
-    rim = _RIM * max(float(at.min()) - low, 1e-9), _RIM * max(high - float(at.max()), 1e-9)
-    room = min(
-        int((may & inner)[: mine[0]].sum()), int((may & inner)[mine[-1] :].sum())
-    )  # fmt: skip
-    return Stretch(along, ends, rim, room, order[placed & inner])
+    rim = tuple(
+        _RIM * max(way, 1e-9) if np.isfinite(way) else 1.0
+        for way in (float(at.min()) - bounds[0], bounds[1] - float(at.max()))
+    )
+    room = may & inner
+    room = min(int(room[: mine[0]].sum()), int(room[mine[-1] :].sum()))
+    return Stretch(along, ends, bounds, (rim[0], rim[1]), room, order[placed & inner])
 
 
 def _breaks(state: HullState, curve: int, order: IntArray) -> np.typing.NDArray[np.bool_]:

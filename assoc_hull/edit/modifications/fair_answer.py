@@ -402,7 +402,7 @@ class FairAnswer:
             spacing = None if found.along == "x" else station_spacing(state)
             self.asked.append(
                 ShapeAsked(
-                    each.name, each.rows, each.to, each.curve, found.ends, spacing,
+                    each.name, each.rows, each.to, each.curve, found.bounds, spacing,
                     found.along == "girth", found.rim,
                 )
             )  # fmt: skip
