@@ -44,6 +44,7 @@ __all__ = [
     "on_profile",
     "quintic_fade",
     "row_spacing",
+    "station_spacing",
     "sub_step_count",
     "unreached",
 ]
@@ -412,6 +413,16 @@ def row_spacing(state: HullState, place: FloatArray) -> float:
         gaps += length[max(at - 1, 0) : at + 1].tolist()
     positive = [gap for gap in gaps if gap > 1e-6]
     return float(np.median(positive)) if positive else 1.0
+
+
+def station_spacing(state: HullState) -> float:
+    """Give the median spacing of lines across the ship, m; Lpp / 20 of fewer than two."""
+    lines = state.live("lines")
+    across = lines[state.lines.planar[lines] & (state.lines.normal[lines, 0] == 1.0)]
+    offsets = np.sort(state.lines.offset[across])
+    return (
+        float(np.median(np.diff(offsets))) if len(offsets) > 1 else state.particulars.length / 20.0
+    )
 
 
 def add_displacements(shifts: list[PointDisplacements], pinned: set[int]) -> PointDisplacements:

@@ -26,12 +26,12 @@ from assoc_hull.edit.displacement_field import (
     on_flat,
     on_profile,
     quintic_fade,
+    station_spacing,
     sub_step_count,
 )
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.led_lines import LineLed, NetBefore, Stretch, find_stretch, second_doses
-from assoc_hull.edit.modifications.reshape import station_spacing
 from assoc_hull.edit.net_battens import fairable_rows, net_battens
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, PointRoleError, RefusedEditError

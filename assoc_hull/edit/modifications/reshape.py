@@ -26,6 +26,7 @@ from assoc_hull.edit.displacement_field import (
     on_profile,
     quintic_fade,
     row_spacing,
+    station_spacing,
 )
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.hull_normals import normals_at
@@ -48,7 +49,6 @@ __all__ = [
     "ReshapeField",
     "fade_radii",
     "reshape",
-    "station_spacing",
     "whole_curve",
 ]
 
@@ -563,16 +563,6 @@ def fade_radii(state: HullState, fade: Fade, shape: FloatArray) -> tuple[float, 
         girth = 3.0 * row_spacing(state, middle)
         return 3.0 * station_spacing(state), girth
     return pair(fade, "fade", positive=True)
-
-
-def station_spacing(state: HullState) -> float:
-    """Give the median spacing of lines across the ship, m; Lpp / 20 of fewer than two."""
-    lines = state.live("lines")
-    across = lines[state.lines.planar[lines] & (state.lines.normal[lines, 0] == 1.0)]
-    offsets = np.sort(state.lines.offset[across])
-    return (
-        float(np.median(np.diff(offsets))) if len(offsets) > 1 else state.particulars.length / 20.0
-    )
 
 
 def _place(
