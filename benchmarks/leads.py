@@ -172,7 +172,9 @@ def _count(
     same = min(len(roles), len(table.role.data))
     crossing = table.alive.data[:same] & (table.sort.data[:same] == Sort.CROSSING)
     other = (table.role.data[:same] != roles[:same])[crossing].any()
-    tally.faults += bool(other or hull.check())
+    # A line that is led leaves its definitions, as with any edit of its shape.
+    finding = any(each.kind != "detached" for each in hull.check())
+    tally.faults += bool(other or finding)
     tally.gap = max(tally.gap, report.largest_gap)
     numbers = {str(table.key[row]): row for row in np.flatnonzero(crossing).tolist()}
     tally.kinds.update(
