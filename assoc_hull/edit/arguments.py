@@ -131,6 +131,15 @@ class GivenObjects:
             raise UnknownNameError("point", str(point))
         return found.row, found.side
 
+    def led_point(self, asked: object) -> tuple[int | None, FloatArray]:
+        """Take a place, or a point and the place where it is to come: its row or None, (3,), m."""
+        if isinstance(asked, str | Point):
+            what, remedy = f"{shown(asked)} has no place", "give (point, (x, y, z))"
+            raise BadInputError(what, "in lead", remedy)
+        if isinstance(asked, Sequence) and len(asked) == 2 and isinstance(asked[0], str | Point):
+            return self.point(asked[0])[0], place(asked[1], "the place of a point", "in lead")
+        return None, place(asked, "an item of points", "in lead")
+
     def curve(self, curve: Curve | str) -> int:
         """Give the number of a curve, or of the only curve of a line."""
         found = self._found(curve, Curve, "curve")
@@ -142,6 +151,15 @@ class GivenObjects:
             known = tuple(f"{curve} [{i + 1}]" for i in range(len(pieces)))
             raise UnknownNameError("curve", str(curve), known)
         return int(pieces[0])
+
+    def pieces(self, line: Line | Curve | str) -> list[int]:
+        """Give the number of a curve, or those of all curves of a line."""
+        found = self._found(line, Curve if isinstance(line, Curve) else Line, "line")
+        if found.line < 0 or found.row >= 0:
+            raise UnknownNameError("line", str(line))
+        if found.curve >= 0:
+            return [found.curve]
+        return [int(each) for each in self.tables.lines.curves[found.line]]
 
     def line(self, line: Line | str) -> int:
         """Give the number of a line."""

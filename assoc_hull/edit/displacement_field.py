@@ -460,6 +460,16 @@ def _lengths(steps: FloatArray) -> FloatArray:
     return found
 
 
+def station_spacing(state: HullState) -> float:
+    """Give the median spacing of lines across the ship, m; Lpp / 20 of fewer than two."""
+    lines = state.live("lines")
+    across = lines[state.lines.planar[lines] & (state.lines.normal[lines, 0] == 1.0)]
+    offsets = np.sort(state.lines.offset[across])
+    return (
+        float(np.median(np.diff(offsets))) if len(offsets) > 1 else state.particulars.length / 20.0
+    )
+
+
 def add_displacements(shifts: list[PointDisplacements], pinned: set[int]) -> PointDisplacements:
     """Add up displacements per point; points that the edit sets itself stay out.
 

@@ -14,7 +14,7 @@ import numpy as np
 from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.followup.take_up_definitions import form_changes
 from assoc_hull.edit.modification import Work
-from assoc_hull.edit.report import EditReport, Fairness, Movement
+from assoc_hull.edit.report import EditReport, Fairness, Led, Movement
 from assoc_hull.edit.step import Step, StepBody
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.graph.journal import Journal, distinct
@@ -100,11 +100,12 @@ def step_of(work: Work, rows: IntArray, away: FloatArray) -> Step:
 
 
 def joined_step(
-    state: HullState, name: str, stages: Sequence[Step], notes: tuple[str, ...] = ()
-) -> Step:
+    state: HullState, name: str, stages: Sequence[Step], *, notes: tuple[str, ...] = (),
+    led: tuple[Led, ...] = (), followed: tuple[tuple[str, float], ...] = (),
+) -> Step:  # fmt: skip
     """Give the one step of an edit that was carried out in stages, from the steps of these.
 
-    `notes` are told after those of the stages.
+    `notes` are told after those of the stages; `led` and `followed` are as its report has them.
     """
     bodies = [step.body for step in stages]
     journal = Journal()
@@ -130,7 +131,8 @@ def joined_step(
         state, name, [body.report for body in bodies], _fairness(state, before, curves),
         _largest_written(state, journal, changed, distance),
     )  # fmt: skip
-    report = attrs.evolve(report, notes=(*report.notes, *notes))
+    notes = (*report.notes, *notes)
+    report = attrs.evolve(report, notes=notes, led=led, followed=followed)
     structural = any(step.structural for step in stages)
     body = StepBody(journal, cause, changed, distance, seeds, report)
     return Step(name, structural, body=body)

@@ -15,6 +15,7 @@ __all__ = [
     "EditReport",
     "Fairness",
     "FormChange",
+    "Led",
     "Movement",
     "change_text",
     "movement_words",
@@ -133,6 +134,31 @@ def _movement_words(movement: Movement, way: str = "") -> str:
 
 
 @attrs.frozen
+class Led:
+    """A line that led, and what of its own followed.
+
+    Attributes
+    ----------
+    line : str
+        Key of the line.
+    along : {"x", "z", "girth"}
+        What the stretch is measured along.
+    stretch : (float, float), m
+        Where it could change.
+    asked : tuple of (str, float)
+        Keys of the points that were asked for, and how far each came along the outward normal, m.
+    crossings : tuple of (str, float)
+        Keys of the crossings of the line that followed, in their order along it, each so.
+    """
+
+    line: str
+    along: str
+    stretch: tuple[float, float]
+    asked: tuple[tuple[str, float], ...]
+    crossings: tuple[tuple[str, float], ...]
+
+
+@attrs.frozen
 class EditReport:
     """The report of one committed edit.
 
@@ -180,6 +206,11 @@ class EditReport:
         Counts `inflections`; None where it is `counted` already.
     counted : tuple of (str, int)
         What was counted.
+    led : tuple of Led
+        The lines that led.
+    followed : tuple of (str, float)
+        Keys of the lines that followed those, and the farthest way of a point of each along the
+        outward normal, m.
     """
 
     name: str
@@ -205,6 +236,8 @@ class EditReport:
     number: int = attrs.field(default=0, eq=False)
     author: str = attrs.field(default="", eq=False)
     time: str = attrs.field(default="", eq=False)
+    led: tuple[Led, ...] = ()
+    followed: tuple[tuple[str, float], ...] = ()
 
     @property
     def inflections(self) -> tuple[tuple[str, int], ...]:

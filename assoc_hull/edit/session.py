@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal, Self
 
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import choice, flag, number, places, positive, shown
+from assoc_hull.arguments import all_of, choice, flag, number, places, positive, shown
 from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.lines import add_line as _cut
@@ -26,6 +26,7 @@ from assoc_hull.edit.modifications import curve_ends as _ends
 from assoc_hull.edit.modifications import definitions as _reattach
 from assoc_hull.edit.modifications import definitions as _set_form
 from assoc_hull.edit.modifications import draw_runs as _draw
+from assoc_hull.edit.modifications import lead as _lead
 from assoc_hull.edit.modifications import names as _rename
 from assoc_hull.edit.modifications import points as _points
 from assoc_hull.edit.modifications import pull as _pull
@@ -365,6 +366,69 @@ class Edit:
             across_flats=across_flats,
             fair=flag(fair, "fair", "in reshape"),
         )
+        return tuple(Point.of(self._tables, row) for row in made)
+
+    @recorded
+    def lead(
+        self,
+        line: Line | Curve | str,
+        points: ArrayLike | Sequence[ArrayLike | tuple[Point | str, ArrayLike]],
+        span: tuple[float, float] | None = None,
+    ) -> tuple[Point, ...]:
+        """Lead a line through places; all lines around follow as fairly as they were.
+
+        The line keeps its points and roles; its crossings in the stretch give up their values.
+        What one edit leads, several lines too, is one solve with what it pulls or re-shapes
+        fairly; the report says what led, over which stretch, and what followed by how much.
+
+        Parameters
+        ----------
+        line : Line, Curve or str
+            A section, waterline, buttock or diagonal.
+        points : sequence of (3,) m, or of (Point or str, (3,) m)
+            Each a place ``(x, y, z)`` in the plane of the line, or a pair of a crossing, a placed
+            or an adopted point of the line and the place where it is to come. A place in the
+            plane of a crossing line is asked of that crossing; other places become placed points,
+            and so do adopted ones.
+        span : (float, float) or None, m
+            Where the line may change: x, or z of a section. None: out to placed points, knuckles,
+            tangent points, flats or ends.
+
+        Returns
+        -------
+        tuple of Point
+            The placed points that were made.
+
+        Raises
+        ------
+        BadInputError
+            Places off the plane of the line or of a crossing, beyond its ends or outside the span;
+            points of another line; a place beside a placed point; a boundary curve.
+        PointRoleError
+            A crossing that another line drives, a point on a flat or on the profile, or one that
+            can move almost along the hull only.
+        RefusedEditError
+            When the edit ends: no answer that was tried is sound.
+
+        Notes
+        -----
+        docs/leading.md tells what a lead does, docs/fair_edits.md how it is solved.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> x, y, z = hull["WL 2.5 x ST 7"].position
+        >>> with hull.edit("5 mm out, and the hull with it") as edit:
+        ...     edit.lead("WL 2.5", [("WL 2.5 x ST 7", (x, y + 0.005, z))])
+        ()
+        >>> hull["WL 2.5 x ST 7"].y - y > 0.00499, len(edit.report.led)
+        (True, 1)
+        """
+        given = self._given
+        asked = [given.led_point(each) for each in all_of(points, object, "points", "in lead")]
+        with self._transaction.whole() as held:
+            made = _lead.lead(held, given.pieces(line), asked, span)
         return tuple(Point.of(self._tables, row) for row in made)
 
     @recorded

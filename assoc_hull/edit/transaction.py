@@ -19,7 +19,7 @@ from assoc_hull.edit.garbage_collection import PausedCollector
 from assoc_hull.edit.modification import Pending
 from assoc_hull.edit.outcome import joined_step
 from assoc_hull.edit.recording import Said, Script, Settings, VariedValues
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.report import EditReport, Led
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.update import update
 from assoc_hull.edit.write_lock import PATIENCE
@@ -97,6 +97,8 @@ class Transaction:
         self._begun = self._taken_back = False
         self._stages: list[_Stage] = []
         self.notes: list[str] = []  # what is said of its stages together
+        self.led: tuple[Led, ...] = ()  # lines that led, and what followed
+        self.followed: tuple[tuple[str, float], ...] = ()
 
     @property
     def report(self) -> EditReport | None:
@@ -345,7 +347,10 @@ class Transaction:
         if self._stages:
             self.end_stage()
             stages = [each.step for each in self._stages]
-            step = joined_step(self.state, self.name, stages, tuple(self.notes))
+            step = joined_step(
+                self.state, self.name, stages,
+                notes=tuple(self.notes), led=self.led, followed=self.followed,
+            )  # fmt: skip
         else:
             step = update(self.document, self.name, self.journal, self.pending, self.settings)
         if self.look is None:

@@ -144,6 +144,7 @@ EDIT: dict[str, Given] = {
         "curve": LINE, "points": [PLACE], "span": (30.0, 60.0), "fade": "auto",
         "across_flats": False, "fair": False,
     },
+    "lead": {"line": LINE, "points": [PLACE], "span": (30.0, 60.0)},
     "straighten": {"line": LINE, "a": POINT, "b": "WL 2.5 x ST 5", "fade": "auto"},
     "round": {
         "line": LINE, "a": POINT, "b": "WL 2.5 x ST 5", "radius": 90.0, "fade": (20.0, 5.0),

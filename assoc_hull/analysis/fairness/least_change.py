@@ -89,9 +89,6 @@ class LeastChange:
 
 def _bounds(amount: FloatArray, largest: float) -> tuple[float, float]:
     """Give how far points may go inwards and outwards, m."""
-    low, high = float(amount.min()), float(amount.max())
-    beyond = 1.0 + _BEYOND
-    return (
-        beyond * low if low < 0.0 else -_BEYOND * largest,
-        beyond * high if high > 0.0 else _BEYOND * largest,
-    )
+    beyond, other = 1.0 + _BEYOND, _BEYOND * largest
+    # What is asked for the other way by a hair is no bound.
+    return min(beyond * float(amount.min()), -other), max(beyond * float(amount.max()), other)

@@ -10,6 +10,7 @@ all else that it asks for, so the order of its modifications changes no bit.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import product
 from typing import Protocol
 
 import attrs
@@ -26,18 +27,22 @@ from assoc_hull.edit.displacement_field import (
     on_flat,
     on_profile,
     quintic_fade,
+    station_spacing,
     sub_step_count,
 )
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.hull_normals import hull_normals
-from assoc_hull.edit.net_battens import net_battens
+from assoc_hull.edit.led_lines import LineLed, NetBefore, Stretch, find_stretch, second_doses
+from assoc_hull.edit.net_battens import fairable_rows, net_battens
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, PointRoleError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.address import address
+from assoc_hull.model.kinds import Sort
 from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.tables import HullState
 
@@ -50,8 +55,10 @@ _TRIALS = 14
 """So many answers are carried out at most, before the best of them is taken."""
 
 _HEAVIER = (6.0, 6.0, 6.0, 2.5, 2.5, 1.6, 1.6)
+_GENTLER = (6.0, 6.0, 2.5, 2.5, 1.6, 1.6, 1.3, 1.3, 1.15, 1.15)
 """How much more lines weigh that gained a sign change, one solve after the other, before an answer
-is carried out. The later ones find what lies between two lines that gain in turns."""
+is carried out. The later ones find what lies between two lines that gain in turns; the gentler
+series is gone through where the other has found nothing."""
 
 _AGAIN, _NEARLY = 5, 0.01
 """So often a pull of a point that is carried is mended, until it comes so near to its goal."""
@@ -97,7 +104,7 @@ class Asked(Protocol):
     def fade(self, state: HullState, xyz: FloatArray, turn: int) -> FloatArray:
         """Give how far points (n, 3), m, may go, of 1, at the radius of a turn of the search."""
 
-    def reach(self, turn: int) -> str:
+    def reach(self, state: HullState, turn: int) -> str:
         """Say what the radius is."""
 
 
@@ -161,7 +168,7 @@ class PullAsked:
         along, girth = self.field.radius
         return factor * max(along, self.stations if turn else 0.0), factor * girth
 
-    def reach(self, turn: int) -> str:
+    def reach(self, state: HullState, turn: int) -> str:
         """Say the radii."""
         along, girth = self._radius(turn)
         return f"{along:.3g} x {girth:.3g} m"
@@ -190,6 +197,10 @@ class ShapeAsked:
         Where it may change: x; z of a section.
     spacing : float or None, m
         Of a section: the radii are multiples of three such spacings along the length.
+    girth : bool
+        Whether the stretch is measured along the section.
+    rim : (float, float) or None, m
+        How far from each end it fades; None: a part of the stretch.
     """
 
     name: str
@@ -198,6 +209,9 @@ class ShapeAsked:
     curve: int
     stretch: tuple[float, float]
     spacing: float | None
+    girth: bool = False
+    rim: tuple[float, float] | None = None
+    _known: dict[bytes, tuple[FloatArray, FloatArray]] = attrs.field(factory=dict, init=False)
 
     @property
     def point(self) -> int:
@@ -219,13 +233,29 @@ class ShapeAsked:
     def fade(self, state: HullState, xyz: FloatArray, turn: int) -> FloatArray:
         """Fade away from the line, and towards the ends of the stretch."""
         low, high = self.stretch
-        axis = 0 if self.spacing is None else 2
-        place = xyz[:, axis]
+        place, away = self._measured(state, xyz)
         inside = (place > low) & (place < high)
-        end = np.minimum(place - low, high - place).clip(0.0) / (_RIM * (high - low))
+        first, last = (_RIM * (high - low),) * 2 if self.rim is None else self.rim
+        end = np.minimum((place - low).clip(0.0) / first, (high - place).clip(0.0) / last)
         along = np.maximum(1.0 - quintic_fade(np.minimum(end, 1.0)), _LEAST)
-        away = self._away(state, xyz) / self._radius(state, turn)
-        return np.where(inside, quintic_fade(away) * along, 0.0)
+        return np.where(inside, quintic_fade(away / self._radius(state, turn)) * along, 0.0)
+
+    def _measured(self, state: HullState, xyz: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give where points lie along the stretch, and how far from the line; once for places."""
+        places = xyz.tobytes()
+        if places not in self._known:
+            self._known.clear()
+            self._known[places] = self._along(state, xyz), self._away(state, xyz)
+        return self._known[places]
+
+    def _along(self, state: HullState, xyz: FloatArray) -> FloatArray:
+        """Give where points lie along the stretch."""
+        if not self.girth:
+            place: FloatArray = xyz[:, 0 if self.spacing is None else 2]
+            return place
+        seen, spline = xyz.copy(), state.spline(self.curve)
+        seen[:, 0] = spline.xyz[0, 0]
+        return closest_points(spline, 0, seen)[0]
 
     def _away(self, state: HullState, xyz: FloatArray) -> FloatArray:
         """Give the distance from the line, seen along x at the same x; along x of a section."""
@@ -247,12 +277,12 @@ class ShapeAsked:
             return 3.0 * self.spacing * _FACTORS[min(turn, len(_FACTORS) - 1)]
         return _RADII[turn] * min(1.0, state.particulars.length / _FULL_SIZE)
 
-    def reach(self, turn: int) -> str:
+    def reach(self, state: HullState, turn: int) -> str:
         """Say the radius."""
         if self.spacing is not None:
             factor = _FACTORS[min(turn, len(_FACTORS) - 1)]
             return f"{3.0 * self.spacing * factor:.1f} m along the length"
-        return f"{_RADII[turn]:g} m"
+        return f"{self._radius(state, turn):g} m"
 
 
 # --------------------------------------------------------------------------------------
@@ -306,10 +336,13 @@ class FairAnswer:
         The edit.
     asked : list of Asked
         What is asked, in the order of the calls.
+    leads : list of LineLed
+        The curves that lead; what is asked of them is known when all else has been carried out.
     """
 
     edit: Transaction
     asked: list[Asked] = attrs.field(factory=list)
+    leads: list[LineLed] = attrs.field(factory=list)
 
     @classmethod
     def of(cls, edit: Transaction) -> FairAnswer:
@@ -333,6 +366,7 @@ class FairAnswer:
         """
         before, state = _shapes(self.edit.state), self.edit.state
         self.edit.end_stage()
+        net, stretches = NetBefore.of(state), self._lead()
         every = np.concatenate([each.rows for each in self.asked])
         if not state.rows.alive[every].all():
             what = "a point that is asked to move has gone in the same edit"
@@ -351,6 +385,7 @@ class FairAnswer:
             lacks = self.asked[0].lacking(state) if len(self.asked) == 1 else 1.0
             if abs(lacks - 1.0) <= _NEARLY:
                 self.edit.notes += search.notes(best)
+                self._tell(net, stretches)
                 return
             # A point that is carried comes less far than those that hold its curves.
             self.asked = [each.times(lacks) for each in self.asked]
@@ -360,6 +395,39 @@ class FairAnswer:
             "asked: pull a point beside it, or by less"
         )
         raise RefusedEditError(self.edit.name, (short,))
+
+    def _lead(self) -> list[Stretch]:
+        """Ask for what leads; give the stretches of all."""
+        if not self.leads:
+            return []
+        state = self.edit.state
+        rows = np.unique(np.concatenate([each.rows for each in self.leads]))
+        self._refuse_changed(rows)
+        free = fairable_rows(state)
+        self.leads.sort(key=lambda each: (each.rows.tolist(), str(each.span)))
+        stretches = [find_stretch(state, each, rows, free) for each in self.leads]
+        for each, found in zip(self.leads, stretches, strict=True):
+            spacing = None if found.along == "x" else station_spacing(state)
+            self.asked.append(
+                ShapeAsked(
+                    each.name, each.rows, each.to, each.curve, found.bounds, spacing,
+                    found.along == "girth", found.rim,
+                )
+            )  # fmt: skip
+        return stretches
+
+    def _tell(self, net: NetBefore, stretches: list[Stretch]) -> None:
+        """Tell the report what led, and what followed."""
+        if not self.leads:
+            return
+        edit, state = self.edit, self.edit.state
+        pairs = list(zip(self.leads, stretches, strict=True))
+        edit.led = tuple(net.led(state, *each) for each in pairs)
+        edit.followed = net.followed(state, self.leads)
+        for (lead, stretch), led in zip(pairs, edit.led, strict=True):
+            edit.notes += net.notes(state, lead, stretch, led)
+        lines = {str(state.lines.key[state.line_of(each.curve)]): each.name for each in self.leads}
+        edit.notes += second_doses(edit.document, lines)
 
     def _refuse_changed(self, rows: IntArray) -> None:
         """Refuse points whose lines or role the same edit has changed, before or after it asked.
@@ -413,6 +481,8 @@ class _Search:
             if lost.any():
                 first = int(rows[lost][0])
                 name = next(each.name for each in asked if first in each.rows.tolist())
+                if state.rows.sort[first] == Sort.CROSSING:
+                    name = address(state, first)
                 raise PointRoleError(name, kind, None, "ask for another point")
         places = _places(state, asked, rows, problem.moves[index])
         step = places - state.rows.xyz[rows]
@@ -436,15 +506,14 @@ class _Search:
         """
         best: _Trial | None = None
         waiting: list[_Candidate] = []
-        for scale in _SCALES:
-            for turn in range(len(_RADII)):
-                candidate = self._foretold(turn, scale)
-                if candidate.count:
-                    waiting.append(candidate)
-                    continue
-                best = self._tried(candidate, best)
-                if best is not None and not best.count:
-                    return best
+        for heavier, scale, turn in product((_HEAVIER, _GENTLER), _SCALES, range(len(_RADII))):
+            candidate = self._foretold(turn, scale, heavier)
+            if candidate.count:
+                waiting.append(candidate)
+                continue
+            best = self._tried(candidate, best)
+            if best is not None and not best.count:
+                return best
         for candidate in sorted(waiting, key=lambda each: each.count):
             if self.trials >= _TRIALS:
                 break
@@ -465,7 +534,7 @@ class _Search:
             best = _better(best, self._try(self._solved(candidate, weight)))
         return best
 
-    def _foretold(self, turn: int, scale: float) -> _Candidate:
+    def _foretold(self, turn: int, scale: float, heavier: tuple[float, ...]) -> _Candidate:
         """Give the answer of a radius that is foretold to gain the fewest sign changes."""
         self._take_back()  # what is foretold starts from the hull as it is
         problem, state = self.problem, self.edit.state
@@ -474,7 +543,7 @@ class _Search:
         weight = np.ones(len(problem.residual))
         best: _Candidate | None = None
         side: IntArray | None = None
-        for times in (*_HEAVIER, 1.0):
+        for times in (*heavier, 1.0):
             answer, side = self.least.answer(fade, scale, weight, side)
             delta = np.round(answer, _ROUNDED)
             gained = self.counts.gained(state, self._lofted(delta))
@@ -556,7 +625,9 @@ class _Search:
 
     def notes(self, best: _Trial) -> Iterator[str]:
         """Say what the answer is, and which lines gained sign changes."""
-        reach = ", ".join(dict.fromkeys(each.reach(best.turn) for each in self.asked))
+        reach = ", ".join(
+            dict.fromkeys(each.reach(self.edit.state, best.turn) for each in self.asked)
+        )
         deepest = float(np.abs(self.least.amount).max())
         far = np.abs(best.delta) > 1e-3
         yield (
@@ -578,7 +649,7 @@ def _stands(state: HullState, row: int) -> tuple[object, ...]:
     lines = [state.line_of(curve) for curve in table.curve[row].tolist() if curve >= 0]
     planes = [(state.lines.offset[line], *state.lines.normal[line].tolist()) for line in lines]
     return (
-        int(table.role[row]), int(table.driver[row]), int(table.sort[row]),
+        int(table.role[row]), int(table.driver[row]), table.sort[row] == Sort.CROSSING,
         tuple(table.curve[row].tolist()), str(planes),
     )  # fmt: skip
 

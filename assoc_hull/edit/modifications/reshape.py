@@ -26,6 +26,7 @@ from assoc_hull.edit.displacement_field import (
     on_profile,
     quintic_fade,
     row_spacing,
+    station_spacing,
 )
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.hull_normals import normals_at
@@ -349,7 +350,7 @@ def _ask_fairly(
         asked.append(row)
     edit.pending.moved_curves.add(curve)
     section = state.family(state.line_of(curve)).axis == 0
-    spacing = _station_spacing(state) if section else None
+    spacing = station_spacing(state) if section else None
     rows = np.array(asked, np.int64)
     name = str(state.lines.name[state.line_of(curve)])
     FairAnswer.of(edit).asked.append(ShapeAsked(name, rows, shape, curve, span, spacing))
@@ -560,18 +561,8 @@ def fade_radii(state: HullState, fade: Fade, shape: FloatArray) -> tuple[float, 
     if isinstance(fade, str) and fade == "auto":
         middle = shape[len(shape) // 2]
         girth = 3.0 * row_spacing(state, middle)
-        return 3.0 * _station_spacing(state), girth
+        return 3.0 * station_spacing(state), girth
     return pair(fade, "fade", positive=True)
-
-
-def _station_spacing(state: HullState) -> float:
-    """Give the median spacing of lines across the ship, m; Lpp / 20 of fewer than two."""
-    lines = state.live("lines")
-    across = lines[state.lines.planar[lines] & (state.lines.normal[lines, 0] == 1.0)]
-    offsets = np.sort(state.lines.offset[across])
-    return (
-        float(np.median(np.diff(offsets))) if len(offsets) > 1 else state.particulars.length / 20.0
-    )
 
 
 def _place(

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.edit.document import Label
 from assoc_hull.edit.recording import Script, VariedValues
-from assoc_hull.edit.report import Counting, EditReport, Movement
+from assoc_hull.edit.report import Counting, EditReport, Led, Movement
 from assoc_hull.edit.step import Rerun, Step, StepBody
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
@@ -415,6 +415,8 @@ def report_text(report: EditReport) -> str:
     Inflections are in it if they are counted: that takes longer than all else of a commit.
     """
     said = attrs.asdict(report, filter=lambda field, _: field.name not in ("fairness", "counted"))
+    if not report.led:
+        del said["led"], said["followed"]
     known = {"inflections": report.counted} if report.fairness is None else {}
     return json.dumps({**said, **known}, separators=(",", ":"))
 
@@ -423,6 +425,16 @@ def _movement(said: Any) -> Movement | None:
     if said is None:
         return None
     return Movement(said["point"], said["distance"], tuple(said["place"]))
+
+
+def _led(said: Any) -> Led:
+    first, second = said["stretch"]
+    asked, crossings = _amounts(said["asked"]), _amounts(said["crossings"])
+    return Led(said["line"], said["along"], (first, second), asked, crossings)
+
+
+def _amounts(said: Any) -> tuple[tuple[str, float], ...]:
+    return tuple((key, float(amount)) for key, amount in said)
 
 
 def report_from(text: str, late: Counting | None = None) -> EditReport:
@@ -438,6 +450,8 @@ def report_from(text: str, late: Counting | None = None) -> EditReport:
     counted = tuple((key, int(count)) for key, count in known or ())
     largest, normal = (_movement(said.pop(name, None)) for name in ("largest", "largest_normal"))
     changes = tuple(tuple(each) for each in said.pop("definitions", ()))
+    led = tuple(_led(each) for each in said.pop("led", ()))
+    followed = _amounts(said.pop("followed", ()))
     plain: dict[str, Any] = {
         name: tuple(x) if isinstance(x, list) else x for name, x in said.items()
     }
@@ -447,6 +461,8 @@ def report_from(text: str, late: Counting | None = None) -> EditReport:
         largest_normal=normal,
         counted=counted,
         definitions=changes,
+        led=led,
+        followed=followed,
         fairness=late if known is None else None,
     )
 

@@ -132,6 +132,20 @@ def test_a_dry_run_tells_it_in_words(
     assert lines[-1] == "nothing written"
 
 
+def test_a_lead_in_a_file_tells_what_followed(
+    hull: Path, edits: Edits, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its notes are printed, by the dry run as by the edit."""
+    x, y, z = ah.open(hull).points[POINT].position
+    line = POINT.split(" x ")[0]
+    changes = [{"op": "lead", "line": line, "points": [[POINT, [x, y + 0.01, z]]]}]
+    file = edits(changes)
+    assert main(["edit", str(hull), str(file)]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert f"{line} leads over x 0.00 to 100.00 m: {POINT}" in told
+    assert ah.open(hull).points[POINT].y == y + 0.01
+
+
 def test_a_dry_run_of_nothing_says_so(
     hull: Path, edits: Edits, facts: Json, capsys: pytest.CaptureFixture[str]
 ) -> None:

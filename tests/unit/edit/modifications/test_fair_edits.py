@@ -299,7 +299,7 @@ def test_flats_and_the_profile_are_not_led(carrier: Hull) -> None:
     place = np.array(carrier.points["WL 9 x ST 6"].position)
     place[1] += 0.02
     line = carrier.lines["WL 9"].curves[0]
-    with pytest.raises(PointRoleError, match="WL 9 is on a flat"), carrier.edit("x") as edit:
+    with pytest.raises(PointRoleError, match="WL 9 x ST 6 is on a flat"), carrier.edit("x") as edit:
         edit.reshape(line, [place], span=(70.0, 110.0), fair=True)
     with pytest.raises(PointRoleError, match="profile"), carrier.edit("x") as edit:
         edit.pull("ST 0.5 x profile #3", 0.02, fair=True)

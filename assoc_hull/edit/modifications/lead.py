@@ -1,0 +1,238 @@
+"""Leads: a designer draws some points of a line, and the hull answers as fairly as it was.
+
+A lead is one solve (`fair_answer`) in the place of a pinned point, which is a bump between its
+neighbours: the line keeps its points and roles, while its crossings give up their values within a
+stretch. What lies in the plane of a crossing line is asked of the crossing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.arguments import pair
+from assoc_hull.edit.crossings.adopted_points import insert_defining_point
+from assoc_hull.edit.led_lines import LineLed
+from assoc_hull.edit.lines.line_planes import checked_in_planes
+from assoc_hull.edit.modifications.points import pin
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError, PointRoleError
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.splines.distance import closest_points
+from assoc_hull.model.address import address
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.make_objects import PointSpec
+from assoc_hull.model.tables import HullState
+from assoc_hull.tolerance import IN_PLANE
+
+__all__ = ["lead"]
+
+_BESIDE = 0.2
+"""Times `Tolerances.factor`: between two points as near as this (m) no curve is led fairly."""
+
+
+def lead(
+    edit: Transaction,
+    curves: Sequence[int],
+    points: Sequence[tuple[int | None, FloatArray]],
+    span: tuple[float, float] | None = None,
+) -> list[int]:
+    """Ask for a line to be led through places.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    curves : sequence of int
+        The curves of the line that may be meant; a new point goes to the nearest.
+    points : sequence of (int or None, (3,) m)
+        Each a crossing, a placed or an adopted point of the line and where it is to come, or None
+        and the place of a new point. An adopted one becomes placed.
+    span : (float, float) or None, m
+        The stretch: x; z of a section. None: see `led_lines`.
+
+    Returns
+    -------
+    list of int
+        The placed points that were made.
+
+    Raises
+    ------
+    BadInputError
+        Places off the plane of the line or of a crossing one, beyond its ends or the span; a point
+        of another line, or one beside a placed point; a boundary curve.
+    PointRoleError
+        A crossing that another line drives.
+    """
+    line = edit.state.line_of(curves[0])
+    name = str(edit.state.lines.name[line])
+    where = f"in lead of {name}"
+    if edit.state.lines.boundary[line] >= 0:
+        what = f"{name} is a boundary curve"
+        raise BadInputError(what, where, "lead the lines that meet it, or re-shape it")
+    if span is not None:
+        span = pair(span, "span", positive=False)
+    if not points:
+        raise BadInputError("no place is given", where, "give (x, y, z), or (point, (x, y, z))")
+    chooser = _Chooser(edit, name, where, curves)
+    for row, xyz in points:
+        chooser.refuse_outside(xyz, span)
+        chooser.take(row, xyz)
+    # What solves sparse systems is imported by whoever asks for it.
+    from assoc_hull.edit.modifications.fair_answer import FairAnswer
+
+    answer = FairAnswer.of(edit)
+    for curve, asked in chooser.asked.items():
+        rows = np.array(sorted(asked), np.int64)
+        to = np.array([asked[row] for row in rows.tolist()])
+        answer.leads.append(LineLed(name, curve, rows, to, span))
+        edit.pending.moved_curves.add(curve)
+    return chooser.made
+
+
+@attrs.define(eq=False)
+class _Chooser:
+    """Finds the points of a line that places are meant for, and makes those that are new.
+
+    `asked` are their goals by curve and point.
+    """
+
+    edit: Transaction
+    name: str
+    where: str
+    curves: Sequence[int]
+    asked: dict[int, dict[int, FloatArray]] = attrs.field(factory=dict)
+    made: list[int] = attrs.field(factory=list)
+
+    @property
+    def state(self) -> HullState:
+        """The tables."""
+        return self.edit.state
+
+    def refuse_outside(self, xyz: FloatArray, span: tuple[float, float] | None) -> None:
+        """Refuse a place outside a named stretch."""
+        if span is None:
+            return
+        section = self.state.family(self.state.line_of(self.curves[0])).axis == 0
+        if not span[0] < float(xyz[2 if section else 0]) < span[1]:
+            what = f"the place {xyz.tolist()} lies outside the span {span}"
+            raise BadInputError(what, self.where, "widen the span or leave the point out")
+
+    def take(self, row: int | None, xyz: FloatArray) -> None:
+        """Take a point and the place that it is to come to."""
+        line = self.state.line_of(self.curves[0])
+        xyz = checked_in_planes(self.state, [line], xyz, self.where)
+        if row is None:
+            curve, foot = self._foot(xyz)
+            row = self._own(curve, foot, xyz)
+            if row is None:
+                self._ask(curve, self._new(curve, foot), xyz)
+                return
+        else:
+            curve = self._curve_of(row)
+        table = self.state.rows
+        if table.sort[row] == Sort.CROSSING:
+            lines = [self.state.line_of(each) for each in table.curve[row].tolist()]
+            xyz = checked_in_planes(self.state, lines, xyz, self.where)
+            if table.role[row] != Role.SHARED:
+                row = self._at_crossing(curve, row)
+        if table.sort[row] == Sort.ADOPTED:
+            pin(self.edit, row)
+        self._ask(curve, row, xyz)
+
+    def _ask(self, curve: int, row: int, xyz: FloatArray) -> None:
+        goals = self.asked.setdefault(curve, {})
+        if row in goals and (goals[row] != xyz).any():
+            what = f"{address(self.state, row)} is asked to be in two places"
+            raise BadInputError(what, self.where, "leave one of the two out")
+        goals[row] = xyz
+
+    def _curve_of(self, row: int) -> int:
+        """Give the curve of the line that a point lies on."""
+        found = [each for each in self.state.rows.curve[row].tolist() if each in self.curves]
+        if not found:
+            what = f"{address(self.state, row)} is no point of {self.name}"
+            raise BadInputError(
+                what, self.where, "give a point of the line, or the place of a new one"
+            )
+        return int(found[0])
+
+    def _foot(self, xyz: FloatArray) -> tuple[int, FloatArray]:
+        """Give the nearest curve of the line, and the place on it."""
+        best: tuple[float, int, FloatArray] | None = None
+        for curve in self.curves:
+            spline = self.state.spline(curve)
+            at, foot, away = closest_points(spline, 0, xyz[None])
+            if (best is None or away[0] < best[0]) and 0.0 < at[0] < spline.knot[-1]:
+                best = float(away[0]), curve, foot[0]
+        if best is None:
+            what = f"the place {xyz.tolist()} lies beyond the ends of {self.name}"
+            raise BadInputError(what, self.where, "give one beside the line")
+        return best[1:]
+
+    def _own(self, curve: int, foot: FloatArray, xyz: FloatArray) -> int | None:
+        """Give the point of the curve that a place is meant for, if there is one."""
+        table = self.state.rows
+        on = table.alive.data & (table.curve.data == curve).any(axis=1)
+        crossing = np.flatnonzero(on & (table.sort.data == Sort.CROSSING))
+        side = (table.curve.data[crossing, 1] == curve).astype(np.int64)
+        apart = np.sqrt(((table.spot.data[crossing, side] - xyz) ** 2).sum(axis=1))
+        for index in np.argsort(apart, kind="stable").tolist():
+            if np.isfinite(apart[index]) and self._in_plane(curve, int(crossing[index]), xyz):
+                return int(crossing[index])
+        rows: IntArray = self.state.curves.rows[curve]
+        rows = rows[np.isin(table.sort[rows], (Sort.PLACED, Sort.ADOPTED))]
+        rows = rows[~np.isin(rows, self.made)]
+        if not len(rows):
+            return None
+        away = np.sqrt(((table.xyz[rows] - foot) ** 2).sum(axis=1))
+        row = int(rows[away.argmin()])
+        same = min(float(away.min()), float(np.abs(table.xyz[row] - xyz).max()))
+        if same <= self.state.tolerances.coincident:
+            return row
+        if away.min() >= self.state.tolerances.factor * _BESIDE:
+            return None
+        if table.sort[row] == Sort.PLACED:
+            x, y, z = (round(value, 6) for value in xyz.tolist())
+            what = f"the placed point {address(self.state, row)} lies {away.min():.3g} m beside it"
+            remedy = f"lead that point: ({address(self.state, row)!r}, ({x}, {y}, {z}))"
+            raise BadInputError(what, self.where, remedy)
+        return row
+
+    def _in_plane(self, curve: int, row: int, xyz: FloatArray) -> bool:
+        """Tell whether a place lies in the plane of the line that crosses."""
+        first, second = self.state.rows.curve[row].tolist()
+        other = self.state.line_of(second if first == curve else first)
+        if not self.state.lines.planar[other]:
+            return False
+        away = self.state.lines.normal[other] @ xyz - self.state.lines.offset[other]
+        return bool(abs(away) <= IN_PLANE)
+
+    def _at_crossing(self, curve: int, row: int) -> int:
+        """Give a point of the curve where a crossing lies that it drives, or that is watched."""
+        table = self.state.rows
+        driver = int(table.driver[row])
+        if table.role[row] != Role.WATCHED and driver != curve:
+            title = str(self.state.lines.name[self.state.line_of(driver)])
+            ways = f"lead {title}, or make it shared (edit.set_role)"
+            raise PointRoleError(address(self.state, row), "driven", title, ways)
+        spot = table.spot[row, int(table.curve[row, 1] == curve)]
+        rows: IntArray = self.state.curves.rows[curve]
+        away = np.sqrt(((table.xyz[rows] - spot) ** 2).sum(axis=1))
+        if away.min() <= self.state.tolerances.coincident:
+            return int(rows[away.argmin()])
+        return self._new(curve, spot)
+
+    def _new(self, curve: int, place: FloatArray) -> int:
+        """Place a point on the curve as it is."""
+        line = self.state.line_of(curve)
+        xyz = checked_in_planes(self.state, [line], place, self.where)
+        row = int(self.edit.maker.points([PointSpec(curve, xyz, Sort.PLACED)])[0])
+        insert_defining_point(self.edit.maker, curve, row)
+        self.edit.pending.structural = True
+        self.edit.pending.curves.add(curve)
+        self.edit.pending.by_hand.add((row, curve))
+        self.made.append(row)
+        return row
