@@ -45,6 +45,7 @@ __all__ = [
     "on_profile",
     "quintic_fade",
     "row_spacing",
+    "spacing_along",
     "station_spacing",
     "sub_step_count",
     "unreached",
@@ -433,7 +434,7 @@ def row_spacing(state: HullState, place: FloatArray) -> float:
     return found
 
 
-def station_spacing(state: HullState, place: FloatArray) -> float:
+def spacing_along(state: HullState, place: FloatArray) -> float:
     """Give the median distance along x of the points that lie nearest to a place, m; 0 if none."""
     chord = _chords_near(state, place)
     step = np.abs(chord[:, 0])

@@ -309,8 +309,7 @@ class _Trial:
     both lobes together.
     """
 
-    turn: int
-    delta: FloatArray
+    answer: _Candidate
     gained: Mapping[int, tuple[int, int, int]]
 
     @property
@@ -375,11 +374,12 @@ class FairAnswer:
         self._refuse_changed(np.concatenate([every, [each.point for each in self.asked]]))
         self.asked.sort(key=_order)
         keep, lacks = self.edit.stages, 1.0
+        best: _Trial | None = None
         for _ in range(_AGAIN):
             search = _Search.of(self.edit, self.asked, before)
             if not search.moves:
                 return
-            best = search.find()
+            best = search.find(best)
             search.carry_out(best)
             # Several pulls add: then none of their points goes where one of them pulls.
             lacks = self.asked[0].lacking(state) if len(self.asked) == 1 else 1.0
@@ -498,12 +498,16 @@ class _Search:
         """Whether anything is asked for that is not so already."""
         return bool((self.places != self.edit.state.rows.xyz[self.rows]).any())
 
-    def find(self) -> _Trial:
+    def find(self, like: _Trial | None = None) -> _Trial:
         """Give the first answer that is fair, by scale and radius; else the fairest that is found.
 
         What is foretold to be fair is tried at once; the others when none of these was, the
-        fairest first.
+        fairest first. An answer like one to nearly the same is enough, if it is no less fair.
         """
+        if like is not None:
+            trial = self._try(self._solved(like.answer, like.answer.weight))
+            if trial is not None and trial.count <= like.count:
+                return trial
         best: _Trial | None = None
         waiting: list[_Candidate] = []
         for heavier, scale, turn in product((_HEAVIER, _GENTLER), _SCALES, range(len(_RADII))):
@@ -596,7 +600,7 @@ class _Search:
             self._take_back()
             return None
         gained = self.counts.gained(self.edit.state, lofted)
-        self.shown = _Trial(candidate.turn, candidate.delta, gained)
+        self.shown = _Trial(candidate, gained)
         return self.shown
 
     def _take_back(self) -> None:
@@ -621,15 +625,15 @@ class _Search:
         """Carry out the answer that was found, where it is not the last one that was tried."""
         if best is not self.shown:
             self._take_back()
-            self._run(best.delta)
+            self._run(best.answer.delta)
 
     def notes(self, best: _Trial) -> Iterator[str]:
         """Say what the answer is, and which lines gained sign changes."""
         reach = ", ".join(
-            dict.fromkeys(each.reach(self.edit.state, best.turn) for each in self.asked)
+            dict.fromkeys(each.reach(self.edit.state, best.answer.turn) for each in self.asked)
         )
         deepest = float(np.abs(self.least.amount).max())
-        far = np.abs(best.delta) > 1e-3
+        far = np.abs(best.answer.delta) > 1e-3
         yield (
             f"answered fairly within {reach}: {int(far.sum())} points move by more than 1 mm, "
             f"{self.trials} tried"

@@ -16,7 +16,7 @@ from assoc_hull.edit.displacement_field import (
     FieldContext,
     PullField,
     row_spacing,
-    station_spacing,
+    spacing_along,
 )
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.published_program import known_numbers
@@ -84,7 +84,7 @@ def pull(
         from assoc_hull.edit.modifications.fair_answer import FairAnswer, PullAsked
 
         name = address(edit.state, row)
-        stations = 0.0 if radius is not None else station_spacing(edit.state, field.place)
+        stations = 0.0 if radius is not None else spacing_along(edit.state, field.place)
         asked = PullAsked(name, _points_held(edit, row), field, amount, _STATIONS * stations)
         FairAnswer.of(edit).asked.append(asked)
     elif amount != 0.0:
