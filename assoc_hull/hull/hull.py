@@ -157,14 +157,16 @@ class Hull:
             state.live("groups").tolist(),
             key=lambda i: (FAMILIES[table.family[i]].rank, table.name[i]),
         )
-        return NamedMapping("group", {str(table.name[i]): Group.of(state, i) for i in order})
+        groups = {str(table.name[i]): Group.of(state, i) for i in order}
+        return NamedMapping("group", groups, spoken=True)
 
     @property
     def lines(self) -> Mapping[str, Line]:
         """All lines by name; by group and name where two groups have one of the same name."""
         state = self.state
         book, live = AddressBook(state), state.live("lines").tolist()
-        return NamedMapping("line", {book.line_name(i): Line.of(state, i) for i in live})
+        lines = {book.line_name(i): Line.of(state, i) for i in live}
+        return NamedMapping("line", lines, spoken=True)
 
     @property
     def points(self) -> Points:
@@ -177,7 +179,8 @@ class Hull:
         state = self.state
         book, table = AddressBook(state), state.rows
         live = [row for row in state.live("rows").tolist() if table.curve[row, 1] >= 0]
-        return NamedMapping("crossing", {book.address(i): Crossing.of(state, i) for i in live})
+        crossings = {book.address(i): Crossing.of(state, i) for i in live}
+        return NamedMapping("crossing", crossings, spoken=True)
 
     @property
     def features(self) -> Mapping[str, FeatureHandle]:
