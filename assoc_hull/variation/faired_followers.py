@@ -35,7 +35,7 @@ from assoc_hull.variation.comparing.line_fairness import (
 
 __all__ = ["FairedFollowers", "ParentLines", "fair_followers", "repeat_fairing"]
 
-_PARTS = (0.25, 1.0)
+_PARTS = (0.25, 0.5, 1.0)
 """Of what is stated: most lines come back by little."""
 
 _PASSES = 3
@@ -43,6 +43,9 @@ _PASSES = 3
 
 _TURNS = 6
 """So often curvatures are taken anew in the search of one pass."""
+
+_VAIN = 3
+"""After so many turns that bring nothing a search ends."""
 
 _SCALE, _DIGIT = 1e-3, 1e-6
 """m: of residuals, and displacements are whole micrometres."""
@@ -56,7 +59,7 @@ _SHARP = 0.25
 _HEAVIER, _STIFFER = 2.0, 6.0
 """How much more lines weigh that gain again; residuals of lines whose comb becomes too large."""
 
-_COMB, _LARGER = 2.5, 1.25
+_COMB, _LARGER = 4.0, 1.25
 """A comb may become so many times the parent's, or so many times what the map made of it."""
 
 _PLACES = np.linspace(-1.0, 1.0, 9)
@@ -401,12 +404,14 @@ class _Search:
         weight, stiffer = np.ones(len(self.keys)), np.ones(len(self.keys))
         ever = np.zeros(len(self.keys), np.bool_)
         digit, first = _DIGIT * self.state.tolerances.factor, None
+        vain = 0
         for _ in range(_TURNS):
             gained, sharp = self._wanting(np.round(delta / digit) * digit)
-            count = int(np.maximum(gained, 0).sum() + sharp.sum())
-            if count < least:
-                least, best = count, np.round(delta / digit) * digit
-            if not count:
+            count = int(np.maximum(gained, 0).sum())
+            vain += 1
+            if count < least and not sharp.any():
+                vain, least, best = 0, count, np.round(delta / digit) * digit
+            if (not count and not sharp.any()) or vain == _VAIN:
                 break
             weight[(gained > 0) & ever] *= _HEAVIER
             stiffer[sharp] *= _STIFFER
