@@ -207,9 +207,7 @@ def repeat_fairing(
     return attrs.evolve(before, after=now.count, lines=now.lines)
 
 
-def _told(
-    within: float, steps: list[Step], first: _Judged, best: _Judged
-) -> FairedFollowers:
+def _told(within: float, steps: list[Step], first: _Judged, best: _Judged) -> FairedFollowers:
     """Say what was done."""
     size = [float(np.sqrt(each @ each)) for each in _summed(steps).values()]
     return FairedFollowers(

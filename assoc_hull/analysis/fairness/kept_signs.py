@@ -3,7 +3,8 @@
 With residuals A d + b of a net, d the displacements of points along the normal, and curvatures
 k_0 + K d of its lines that are not to pass bounds k,
 
-    E(d) = sum over residuals i of v_i (A d)_i^2 / (s^2 + b_i^2) + sum over points j of (d_j / T_j)^2
+    E(d) = sum over residuals i of v_i (A d)_i^2 / (s^2 + b_i^2)
+         + sum over points j of (d_j / T_j)^2
          + sum over bounds l of w_l max(0, (k_0 + K d - k)_l)^2
 
 is least within how far each point may go. As in `least_change` it is the change of the residuals
