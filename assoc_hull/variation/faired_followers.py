@@ -435,7 +435,7 @@ class _Search:
         rate = csr_array(vstack([rates.rate[up], -rates.rate[down]]))
         beyond = np.concatenate([(rates.value - high)[up], (low - rates.value)[down]])
         cost = weight[line[np.concatenate([up, down])]] / (_SHARP * DEAD_BAND) ** 2
-        heavy = {key: size for key, size in zip(self.keys, stiffer.tolist(), strict=True)}
+        heavy = dict(zip(self.keys, stiffer.tolist(), strict=True))
         stiff = np.array([
             heavy.get(str(self.state.lines.key[self.state.line_of(curve)]), 1.0)
             for curve in self.problem.curve.tolist()
@@ -447,7 +447,7 @@ class _Search:
         assert self.bent is not None, "curves bend"
         batch, normals, count = self.bent.lofted(delta), self.bent.normals, len(self.keys)
         changes = sampled_curvatures(batch, normals).sign_changes(DEAD_BAND)
-        combs = np.bincount(self.lines, comb_integrals(batch, normals), count)
+        combs: FloatArray = np.bincount(self.lines, comb_integrals(batch, normals), count)
         return np.bincount(self.lines, changes, count).astype(np.int64), combs
 
     def _wanting(self, delta: FloatArray) -> tuple[IntArray, np.typing.NDArray[np.bool_]]:
@@ -542,9 +542,10 @@ def _curvature_at(shape: SplineBatch, normal: FloatArray, places: FloatArray) ->
     """Give the curvature of a curve at parameters (n, p), on both sides of knots, (n, p, 2)."""
     start, end = end_curvatures(shape, normal[None])
     found = list[FloatArray]()
-    for side in ("left", "right"):
-        segment = np.searchsorted(shape.knot, places, side=side) - 1  # type: ignore[call-overload]
-        segment = np.clip(segment, 0, len(start) - 1)
+    for before in (
+        np.searchsorted(shape.knot, places, "left"), np.searchsorted(shape.knot, places, "right")
+    ):  # fmt: skip
+        segment = np.clip(before - 1, 0, len(start) - 1)
         part = (places - shape.knot[segment]) / np.diff(shape.knot)[segment]
         found.append((1.0 - part) * start[segment] + part * end[segment])
     return np.stack(found, axis=2)

@@ -292,8 +292,9 @@ class VariationReport:
     def __str__(self) -> str:
         aimed = () if self.aim is None else (str(self.aim),)
         targets = (str(each) for each in self.targets)
+        faired = () if self.faired is None else (str(self.faired),)
         stages = () if len(self.stages) < 2 else (f"in stages: {'; '.join(self.stages)}",)
-        return "\n".join([*targets, *aimed, *stages, *self.notes, str(self.edit)])
+        return "\n".join([*targets, *aimed, *stages, *faired, *self.notes, str(self.edit)])
 
 
 def measure_parent(state: HullState) -> None:
