@@ -59,8 +59,11 @@ _SHARP = 0.25
 _HEAVIER, _STIFFER = 2.0, 6.0
 """How much more lines weigh that gain again; residuals of lines whose comb becomes too large."""
 
-_COMB, _LARGER = 4.0, 1.25
+_COMB, _LARGER = 2.5, 1.1
 """A comb may become so many times the parent's, or so many times what the map made of it."""
+
+_FORETOLD = 1.6
+"""Times that it may be foretold to become: what is carried out mends some of it."""
 
 _PLACES = np.linspace(-1.0, 1.0, 9)
 """Where the parent is looked at, from the middle to one neighbour to that to the other."""
@@ -369,7 +372,7 @@ class _Search:
         lines = np.array([keys.index(key) for key in line_keys], np.int64)
         was = np.array([parent.fairness[key].sign_changes for key in keys], np.int64)
         limits = first.limits()
-        limit = np.array([limits[key] for key in keys])
+        limit = _FORETOLD * np.array([limits[key] for key in keys])
         none = np.zeros(len(keys))
         found = cls(
             state, problem, None, lines, keys, none, none, kept, was, np.zeros_like(was), limit,
