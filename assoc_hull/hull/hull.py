@@ -1914,6 +1914,7 @@ features
         stations: Stations = "number",
         planes: Planes = "follow",
         tolerance: float = 2e-3,
+        fair: float | bool = False,
         name: str | None = None,
         in_place: bool = False,
     ) -> Variation[Hull]:
@@ -1963,6 +1964,12 @@ features
             than half of their length, all stay.
         tolerance : float, m
             How far a driver may leave its exact image.
+        fair : float or bool, m
+            How far points that the map has moved may move once more, so that lines get no new
+            changes of the sign of curvature; True: 20 mm, of a hull under 100 m less in proportion.
+            The profile and other boundary curves, flats, features and placed points stay where the
+            map takes them; values and targets are met as without. `VariationReport.faired` tells
+            what was done, and which lines have more changes still.
         name : str
             Of the step in the history; by default it tells the values.
         in_place : bool
@@ -2021,7 +2028,8 @@ features
 
         ask = VariationRequest.of(
             set, reach=reach, free=free, bounds=bounds, exact=exact, layers=layers, layout=layout,
-            drivers=drivers, stations=stations, planes=planes, tolerance=tolerance, name=name,
+            drivers=drivers, stations=stations, planes=planes, tolerance=tolerance, fair=fair,
+            name=name,
         )  # fmt: skip
         measure_parent(state_of(self, "in vary"))
         varied = _to_change(self, "vary", in_place=in_place)

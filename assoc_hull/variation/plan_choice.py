@@ -34,6 +34,7 @@ from assoc_hull.variation.comparing.line_fairness import (
     compare_fairness,
     measure_fairness,
 )
+from assoc_hull.variation.faired_followers import ParentLines
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.stages import Plan, class_plan, finer_plan, single_plan
 from assoc_hull.variation.request import TargetRequest, VariationRequest
@@ -73,6 +74,7 @@ def choose_plan(
         What is wrong with a single value, or with targets.
     """
     before = parent_fairness(edit.state)
+    lines = ParentLines.of(edit.state, before) if ask.fair else None
     best = list[tuple[float, int, SettledPlan]]()
     refusal: tuple[AssocHullError, StagedCarry] | None = None
     tried, there = set[tuple[Plan, bool]](), None
@@ -81,7 +83,7 @@ def choose_plan(
         plan, together = left.pop(0)
         if (plan, together) in tried:
             continue
-        carry = StagedCarry(edit, ask, plan, not best, together)
+        carry = StagedCarry(edit, ask, plan, not best, together, lines=lines)
         try:
             if best and not together:  # one round shows whether it is worth more
                 there = None

@@ -17,6 +17,7 @@ from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.variation.carrying.admissible_values import SAME, AdmissibleValues
 from assoc_hull.variation.carrying.carry_hull import AppliedMap, carry_map
 from assoc_hull.variation.certificate.fold_check import Certificate
+from assoc_hull.variation.faired_followers import ParentLines
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
@@ -95,6 +96,8 @@ class StagedCarry:
         The stage that was refused last, at its finest.
     base : AdmissibleValues or None
         What is measured of the hull as it came, if it is at hand.
+    lines : ParentLines or None
+        The lines of the hull as it came, where followers are to be faired.
     """
 
     edit: Transaction
@@ -105,6 +108,7 @@ class StagedCarry:
     carried: list[CarriedMap] = attrs.field(factory=list)
     refused: Stage | None = None
     base: AdmissibleValues | None = None
+    lines: ParentLines | None = None
 
     def run(self, aims: Mapping[str, float]) -> None:
         """Carry the hull as it came by all stages; whatever was carried before is taken back.
