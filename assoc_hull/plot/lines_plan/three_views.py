@@ -13,7 +13,9 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.plot.lines_plan.batten_heat import BattenHeat
 from assoc_hull.plot.lines_plan.drawing import Drawing, PlotLine, pen_of
+from assoc_hull.plot.lines_plan.zoom_window import clipped
 from assoc_hull.plot.sheet.labels import LabelledLine, Side, label_above, label_lines, label_row
 from assoc_hull.plot.sheet.paper import AXIS, GRID, HEAVY, MARGIN, WATER, Paper, Pen
 from assoc_hull.plot.sheet.sheet_figure import Sheet
@@ -25,6 +27,7 @@ __all__ = [
     "ViewLayout",
     "Views",
     "body_halves",
+    "extent",
     "lay_out_views",
     "scale_of_body",
 ]
@@ -36,6 +39,7 @@ _SIDE = 17.0  # for labels left and right of a view
 _ABOVE, _BELOW, _CAPTION = 9.0, 9.0, 7.0
 _ABOVE_HALF = 6.5
 _BODY_ABOVE, _BODY_BELOW = 15.0, 12.0
+_LOWER = 0.62  # of the height, for profile and half-breadth plan of a stretch of a hull
 
 
 @attrs.frozen
@@ -70,14 +74,17 @@ def lay_out_views(drawing: Drawing, paper: Paper) -> ViewLayout:
     lies the body plan on its own, larger scale, beside the block of particulars.
     """
     factor = paper.factor
-    low, high = drawing.bounds
-    low = np.minimum(low, [0.0, 0.0, 0.0])
+    low, high = extent(drawing)
     length, breadth, height = (high - low).tolist()
     depth = _diagonal_reach(drawing)
     frame = MARGIN * factor
-    scale = scale_of(length, paper.width - 2.0 * frame - 2.0 * _SIDE * factor)
-    unit = 1e3 / scale
     bands = (_ABOVE_HALF + _ABOVE + 2.0 * (_BELOW + _CAPTION)) * factor
+    scale = scale_of(length, paper.width - 2.0 * frame - 2.0 * _SIDE * factor)
+    if drawing.window is not None:
+        # a short stretch is as high as it is long
+        share = _LOWER * (paper.height - 2.0 * frame)
+        scale = max(scale, scale_of(height + breadth + depth, share - bands))
+    unit = 1e3 / scale
     lower = unit * (height + breadth + depth) + bands
     room = paper.height - 2.0 * frame - lower
     body_room = (
@@ -99,6 +106,16 @@ def lay_out_views(drawing: Drawing, paper: Paper) -> ViewLayout:
         View("body", (1, 2), body_scale, (middle, base)),
         low, high, depth, (paper.width - frame, paper.height - frame),
     )  # fmt: skip
+
+
+def extent(*drawings: Drawing) -> tuple[FloatArray, FloatArray]:
+    """Give least and greatest coordinates of drawings of one window, (3,), m.
+
+    The centre plane and the base line are in; where the lines are whole, the AP too.
+    """
+    low, high = np.stack([each.bounds for each in drawings]).transpose(1, 0, 2)
+    whole = drawings[0].window is None
+    return np.minimum(low.min(axis=0), [0.0 if whole else np.inf, 0.0, 0.0]), high.max(axis=0)
 
 
 def scale_of_body(breadth: float, height: float, room: tuple[float, float]) -> float:
@@ -245,6 +262,8 @@ class Grid:
         factor, length = self.sheet.paper.factor, self.drawing.particulars.length
         bottom, top = view.up(low) - self.over, view.up(high) + self.over
         for x, words in ((0.0, "AP"), (0.5 * length, "Lpp/2"), (length, "FP")):
+            if not self.drawing.shows(x):
+                continue
             at = view.across(x)
             self.sheet.rule((at, bottom), (at, top), AXIS, f"{view.name}/grid/{words}")
             text = self.sheet.text(
@@ -354,7 +373,8 @@ class Views:
             if not self._along_grid(line):
                 lettered += [LabelledLine(label, points, line.name) for points in found]
         self._diagonals(view)
-        start, end, middle = (view.across(x) for x in (self.low[0], self.high[0], self.middle))
+        along = (self.low[0], self.high[0], self.drawing.middle)
+        start, end, middle = (view.across(x) for x in along)
         wanted = {line.label for line in lettered}
         for low, high, part in ((start, middle, "aft"), (middle, end, "fore")):
             wanted -= label_lines(
@@ -400,6 +420,20 @@ class Views:
         )  # fmt: skip
         self.grid.body(view)
 
+    def heat(self, layout: ViewLayout, colours: BattenHeat) -> None:
+        """Colour the lines of all three views."""
+        for view, families in (
+            (layout.profile, ("boundary", "buttocks")),
+            (layout.half, ("boundary", "waterlines")),
+        ):
+            for line in (each for family in families for each in self.drawing.of(family)):
+                if view is layout.profile or line is not self.drawing.profile:
+                    colours.draw(self.sheet, view, line, self.drawing)
+        halves = body_halves(self.sections, self.middle)
+        for view, lines in zip((layout.body.mirrored(), layout.body), halves, strict=True):
+            for line in lines:
+                colours.draw(self.sheet, view, line, self.drawing)
+
     def _half_body(self, view: View, sections: Sequence[PlotLine]) -> list[_Top]:
         """Draw the sections of one half, labelled on the lines; give their tops."""
         tops, lettered = [], []
@@ -421,9 +455,9 @@ class Views:
     def _half_boundary(self, view: View, line: PlotLine) -> None:
         """Draw what of a boundary lies abaft (mirrored) or before the middle."""
         pen = pen_of(line, line.name in self.tinted)
+        edges = (self.middle, np.inf) if view.sign > 0.0 else (-np.inf, self.middle)
         for points in line.polylines:
-            part = _clip(points, self.middle, view.sign)
-            if len(part) > 1:
+            for part, _ in clipped(points, *edges):
                 self.sheet.line(view.on_paper(part), pen, f"body/boundary/{line.name}")
 
 
@@ -434,16 +468,3 @@ def body_halves(
     aft = tuple(line for line in sections if line.offset <= middle + _NEAR)
     fore = tuple(line for line in sections if line.offset >= middle - _NEAR)
     return aft, fore
-
-
-def _clip(points: FloatArray, middle: float, sign: float) -> FloatArray:
-    """Give the part of a polyline before (sign 1) or abaft (-1) a station."""
-    ahead = sign * (points[:, 0] - middle)
-    found = []
-    for i in range(len(points)):
-        if i and ahead[i - 1] * ahead[i] < 0.0:
-            part = ahead[i - 1] / (ahead[i - 1] - ahead[i])
-            found.append(points[i - 1] + part * (points[i] - points[i - 1]))
-        if ahead[i] >= 0.0:
-            found.append(points[i])
-    return np.array(found).reshape(-1, 3)
