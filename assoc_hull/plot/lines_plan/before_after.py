@@ -21,7 +21,13 @@ from assoc_hull.plot.lines_plan.exaggerated_movement import (
     steps_from,
 )
 from assoc_hull.plot.lines_plan.plan import window_rows
-from assoc_hull.plot.lines_plan.three_views import Views, body_halves, extent, scale_of_body
+from assoc_hull.plot.lines_plan.three_views import (
+    Views,
+    body_halves,
+    body_sides,
+    extent,
+    scale_of_body,
+)
 from assoc_hull.plot.lines_plan.zoom_window import zoomed
 from assoc_hull.plot.sheet.paper import BEFORE, MARGIN, TINT, PaperName, Pen
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
@@ -319,10 +325,12 @@ def _body(
     width = paper.width - (2.0 * MARGIN + BLOCK + 2.0 * _SIDE) * factor
     room = paper.height - MARGIN * factor - base - (_ABOVE + _BELOW) * factor
     height = float(high[2] - low[2])
-    scale = scale_of_body(float(high[1]), height, (width, room))
+    breadth, sides = float(high[1]), body_sides(views.drawing)
+    scale = scale_of_body(0.5 * len(sides) * breadth, height, (width, room))
     spare = room - height * 1e3 / scale
     up = base + _BELOW * factor + 0.5 * spare - float(low[2]) * 1e3 / scale
-    view = View("body", (1, 2), scale, (0.5 * (paper.width - BLOCK * factor), up))
+    middle = 0.5 * (paper.width - BLOCK * factor) - 0.5 * sum(sides) * breadth * 1e3 / scale
+    view = View("body", (1, 2), scale, (middle, up))
     views.body(view)
     sections = Views(views.sheet, old, low, high).sections
     halves = (body_halves(lines, views.middle) for lines in (sections, views.sections))
@@ -330,7 +338,7 @@ def _body(
         overlay(views.sheet, half, pairs_of(was, now), large=large)
     foot = view.up(float(low[2])) - 9.0 * factor
     words = f"BODY PLAN  1:{scale:g}" + ("" if large is None else large.words(view))
-    caption(views.sheet, (view.across(0.0), foot), words)
+    caption(views.sheet, (view.across(0.5 * sum(sides) * breadth), foot), words)
     if moved and not np.isnan((largest := moved[0]).distance):
         _arrow(views, view, largest)
 

@@ -207,6 +207,8 @@ def _room(layout: ViewLayout, sheet: Sheet, notes: int) -> int:
     """Give how many rows the block may have above the profile and the names over it."""
     factor = sheet.paper.factor
     top = layout.profile.up(float(layout.high[2])) + _ABOVE * factor
+    if top > layout.corner[1]:
+        top = MARGIN * factor  # the block stands below the body plan
     free = (layout.corner[1] - top) / factor - block_height(0, notes)
     return max(int(free / ROW), 0)
 

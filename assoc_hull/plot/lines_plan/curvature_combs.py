@@ -21,7 +21,7 @@ from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.plot.lines_plan.batten_heat import HeatName, batten_heat
 from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, PlotLine, drawing
 from assoc_hull.plot.lines_plan.plan import window_rows
-from assoc_hull.plot.lines_plan.three_views import Views, body_halves, lay_out_views
+from assoc_hull.plot.lines_plan.three_views import Views, body_halves, body_sides, lay_out_views
 from assoc_hull.plot.lines_plan.zoom_window import zoomed
 from assoc_hull.plot.sheet.labels import label_row
 from assoc_hull.plot.sheet.paper import GRID, HEAVY, MARGIN, TINT, PaperName, Pen
@@ -383,15 +383,16 @@ def combs_plan(
     aft, fore = body_halves(views.sections, views.middle)
     body, across = layout.body, 0.5 * float(layout.low[0] + layout.high[0])
     rows, told, pens = [], [], _COMB_PLAN_PENS if colours is None else _GREY_PLAN_PENS
-    for view, shown, centre, words in (
+    centre = 0.5 * float(layout.high[1]) * sum(body_sides(plan))
+    for view, shown, middle, words in (
         (layout.profile, ((layout.profile, plan.of("buttocks")),), across, "PROFILE"),
         (layout.half, ((layout.half, plan.of("waterlines")),), across, "HALF-BREADTH PLAN"),
-        (body, ((body.mirrored(), aft), (body, fore)), 0.0, "BODY PLAN"),
+        (body, ((body.mirrored(), aft), (body, fore)), centre, "BODY PLAN"),
     ):
         bends, curvature = _view(sheet, shown, plan.window, pens)
         low = float(layout.low[2]) if view.axes[1] == 2 else 0.0
         told.append((
-            (view.across(centre), view.up(low) - 13.0 * factor),
+            (view.across(middle), view.up(low) - 13.0 * factor),
             f"{words}  1:{view.denominator:g};  tooth of 10 mm: {curvature:.3g} 1/m",
         ))  # fmt: skip
         rows.append((f"Inflections, {words.lower()}", f"{bends}"))

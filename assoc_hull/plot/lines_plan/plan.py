@@ -9,7 +9,7 @@ import attrs
 
 from assoc_hull.plot.lines_plan.batten_heat import HeatName, batten_heat
 from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, drawing, particulars_of
-from assoc_hull.plot.lines_plan.three_views import ViewLayout, Views, lay_out_views
+from assoc_hull.plot.lines_plan.three_views import ViewLayout, Views, body_sides, lay_out_views
 from assoc_hull.plot.lines_plan.zoom_window import zoomed
 from assoc_hull.plot.sheet.paper import MARGIN, PaperName
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
@@ -131,18 +131,19 @@ def captions(
     """Write the names of the views below them, and what else there is to say of each."""
     factor = sheet.paper.factor
     middle, low = plan.middle, layout.low[2]
+    body, sides = layout.body, body_sides(plan)
+    across = 0.5 * float(layout.high[1]) * sum(sides)
     rows = (
         (layout.profile, middle, low, 11.0, "PROFILE"),
         (layout.half, middle, -layout.depth, 11.0, "HALF-BREADTH PLAN"),
-        (layout.body, 0.0, low, 9.0, "BODY PLAN"),
+        (body, across, low, 9.0, "BODY PLAN"),
     )
-    for view, across, up, drop, words in rows:
-        place = (view.across(across), view.up(up) - drop * factor)
+    for view, along, up, drop, words in rows:
+        place = (view.across(along), view.up(up) - drop * factor)
         caption(sheet, place, words + more(view))
-    body = layout.body
-    if more(body):
+    if more(body) or len(sides) == 1:
         return  # the words take the room
-    for sign, words in ((-1.0, "AFT BODY"), (1.0, "FORE BODY")):
+    for sign, words in zip(sides, ("AFT BODY", "FORE BODY"), strict=True):
         half = attrs.evolve(body, sign=sign)
         place = (half.across(0.5 * layout.high[1]), body.up(low) - 9.0 * factor)
         caption(sheet, place, words)
