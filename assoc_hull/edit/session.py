@@ -34,7 +34,7 @@ from assoc_hull.edit.modifications import reshape as _reshape
 from assoc_hull.edit.modifications import roles as _renew
 from assoc_hull.edit.modifications import roles as _set_role
 from assoc_hull.edit.modifications import spread as _spread
-from assoc_hull.edit.recording import Said, Settings, recorded
+from assoc_hull.edit.recording import Said, Script, Settings, VariedValues, recorded
 from assoc_hull.edit.recut import transform as _transform
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.space_map import Jacobian, PointMapping, space_map
@@ -203,6 +203,12 @@ class Edit:
     def active(self) -> bool:
         """Whether the ``with`` block is open."""
         return self._held.active
+
+    @property
+    def asked(self) -> Script:
+        """What it was asked for so far, as data."""
+        held = self._held
+        return Script.of(held.script, held.settings, VariedValues(), VariedValues())
 
     def _note(self, change: dict[str, Said]) -> None:
         """Keep a modification that was asked for, as data."""

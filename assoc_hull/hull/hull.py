@@ -309,7 +309,8 @@ class Hull:
         Returns
         -------
         Preview
-            The report, or why it would be refused; lines that would change; volume and LCB.
+            The report, or why it would be refused; lines that would change; volume and LCB. Where
+            something is asked with ``fair=True``, what the plain field would do is its ``plain``.
 
         Raises
         ------

@@ -305,8 +305,8 @@ class _Candidate:
 class _Trial:
     """An answer that was carried out.
 
-    `gained` is by curve: sign changes before and now at the smaller lobe, and how many came at
-    both lobes together.
+    `gained` is by curve: sign changes before and now at the smaller lobe, or at the larger where
+    the smaller has none more, and how many came at both together.
     """
 
     answer: _Candidate
@@ -702,7 +702,7 @@ class _SignChanges:
     def gained(
         self, state: HullState, now: Mapping[int, SplineBatch]
     ) -> dict[int, tuple[int, int, int]]:
-        """Give, by curve, how many there were and are at the smaller lobe, and what came at all."""
+        """Give, by curve, how many there were and are at the lobe that gained, and what came."""
         curves = [curve for curve in now if curve in self.before]
         fresh = [curve for curve in curves if curve not in self._known]
         self._known.update(self._count(state, {curve: self.before[curve] for curve in fresh}))
@@ -711,7 +711,8 @@ class _SignChanges:
             was = self._known[curve]
             more = sum(max(new - old, 0) for new, old in zip(counts, was, strict=True))
             if more:
-                found[curve] = was[0], counts[0], more
+                lobe = next(i for i, old in enumerate(was) if counts[i] > old)
+                found[curve] = was[lobe], counts[lobe], more
         return found
 
     @staticmethod
