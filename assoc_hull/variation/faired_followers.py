@@ -450,8 +450,8 @@ class _Search:
         assert self.bent is not None, "curves bend"
         batch, normals, count = self.bent.lofted(delta), self.bent.normals, len(self.keys)
         changes = sampled_curvatures(batch, normals).sign_changes(DEAD_BAND)
-        combs: FloatArray = np.bincount(self.lines, comb_integrals(batch, normals), count)
-        return np.bincount(self.lines, changes, count).astype(np.int64), combs
+        combs = np.bincount(self.lines, comb_integrals(batch, normals), count)
+        return np.bincount(self.lines, changes, count).astype(np.int64), np.asarray(combs, float)
 
     def _wanting(self, delta: FloatArray) -> tuple[IntArray, np.typing.NDArray[np.bool_]]:
         """Give how many changes lines gain, and which combs become too large."""
