@@ -119,7 +119,7 @@ class FairedFollowers:
     Attributes
     ----------
     within : float, m
-        By how much points could move from where the map took them, along the normal of the hull.
+        How far points could move from where the map took them.
     points : int
         How many have moved.
     largest : float, m
@@ -161,7 +161,7 @@ def fair_followers(edit: Transaction, parent: ParentLines, within: float) -> Fai
     parent : ParentLines
         The hull before.
     within : float, m
-        How far points may move along the normal of the hull.
+        How far points may move.
     """
     first = best = found = _Judged.of(edit.state, parent)
     keep, kept, steps = edit.stages, list[Step](), list[Step]()
