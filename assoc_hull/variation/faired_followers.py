@@ -119,7 +119,7 @@ class FairedFollowers:
     Attributes
     ----------
     within : float, m
-        By how much points could move from where the map took them, along the normal of the hull.
+        How far points could move from where the map took them.
     points : int
         How many have moved.
     largest : float, m
@@ -161,7 +161,7 @@ def fair_followers(edit: Transaction, parent: ParentLines, within: float) -> Fai
     parent : ParentLines
         The hull before.
     within : float, m
-        How far points may move along the normal of the hull.
+        How far points may move.
     """
     first = best = found = _Judged.of(edit.state, parent)
     keep, kept, steps = edit.stages, list[Step](), list[Step]()
@@ -450,8 +450,8 @@ class _Search:
         assert self.bent is not None, "curves bend"
         batch, normals, count = self.bent.lofted(delta), self.bent.normals, len(self.keys)
         changes = sampled_curvatures(batch, normals).sign_changes(DEAD_BAND)
-        combs: FloatArray = np.bincount(self.lines, comb_integrals(batch, normals), count)
-        return np.bincount(self.lines, changes, count).astype(np.int64), combs
+        combs = np.bincount(self.lines, comb_integrals(batch, normals), count)
+        return np.bincount(self.lines, changes, count).astype(np.int64), np.asarray(combs, float)
 
     def _wanting(self, delta: FloatArray) -> tuple[IntArray, np.typing.NDArray[np.bool_]]:
         """Give how many changes lines gain, and which combs become too large."""

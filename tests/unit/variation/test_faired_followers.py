@@ -91,8 +91,9 @@ def test_boundary_curves_and_features_stay_where_the_map_takes_them(raised: Rais
     state = raised.hull.state
     outer = state.lines.boundary.data[np.maximum(state.curves.line.data, 0)] >= 0
     curve = state.rows.curve.data
-    on = ((curve >= 0) & outer[np.maximum(curve, 0)]).any(axis=1)
-    on[[point for feature in state.features for point in feature.points]] = True
+    featured = [point for feature in state.features for point in feature.points]
+    on = np.isin(np.arange(state.rows.count), featured)
+    on |= ((curve >= 0) & outer[np.maximum(curve, 0)]).any(axis=1)
     # crossings that are computed from another line go as that one does
     on &= state.rows.alive.data & (state.rows.driver.data < 0)
     keys = {str(state.rows.key[row]) for row in np.flatnonzero(on).tolist()}
