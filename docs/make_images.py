@@ -208,7 +208,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "dtc_report": dtc_report,
 }
 DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 110,
-       "container_ship_225m": 110, "dtc_report": 110, "carrier_combs": 96, "counter": 116, "stern_heat": 108, "stern_faired": 108, "comparison": 110,
+       "container_ship_225m": 110, "dtc_report": 110, "carrier_combs": 96,
+       "counter": 116, "stern_heat": 108, "stern_faired": 108, "comparison": 110,
        "variant_plan": 110, "form_sheet": 100, "panels": 105, "closed_mesh": 105,
        "hull_plates": 62, "hull_surface": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "container_ship_225m", "dtc")

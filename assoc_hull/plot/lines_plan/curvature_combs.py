@@ -244,7 +244,7 @@ def _panel(
         scale_of(float(comb.size[1]), (1.0 - 2.0 * _HIGH) * room),
     )
     length = np.sqrt((comb.tooth * comb.tooth).sum(axis=1))
-    per_ten = given or _round(10.0 * float(np.nanpercentile(length, _USUAL)) / (_HIGH * room))
+    per_ten = given or _round(10.0 * _usual(length) / (_HIGH * room))
     unit, high = 1e3 / denominator, 10.0 / per_ten
     low = np.concatenate(comb.courses).min(axis=0)
     centre = np.array([0.5 * sheet.paper.width, top - _HEAD * factor - 0.5 * room])
@@ -283,6 +283,12 @@ def _stations(
     below, name = top - room - 1.2 * factor, f"label/{panel.name}/stations"
     words = [line.label for line in sections]
     label_row(sheet, ends, words, "below", below, heading="ST", sparse=True, name=name)
+
+
+def _usual(length: FloatArray) -> float:
+    """Give the length that few teeth exceed, 1/m; 0 where a window holds none."""
+    known = length[np.isfinite(length)]
+    return float(np.percentile(known, _USUAL)) if len(known) else 0.0
 
 
 def _round(value: float) -> float:
@@ -434,7 +440,7 @@ def _view(
     if not found:
         return 0, 0.0
     size = np.concatenate([np.hypot(*comb.tooth.T) for comb in found])
-    high = _COMB_PLAN_USUAL * factor / max(float(np.nanpercentile(size, 95.0)), 1e-9)
+    high = _COMB_PLAN_USUAL * factor / max(_usual(size), 1e-9)
     for view, lines in shown:
         for line in lines:
             for points in line.polylines:

@@ -340,7 +340,7 @@ WRONG: dict[str, tuple[Ask, type[AssocHullError], str]] = {
         "nothing to move.*on the profile",
     ),
     "all kept": (
-        lambda h: h.fair(noise=0.001, keep=[*h["sections"].lines]), BadInputError,
+        lambda h: h.fair(noise=0.001, keep=[*h.groups["sections"].lines]), BadInputError,
         r"nothing to move.*keep names all 171 points that could move \(.* and 166 more\); keep few",
     ),
     "noise": (lambda h: h.fair(noise=-0.001), BadInputError, "above 0"),
@@ -381,7 +381,7 @@ def test_edits_that_since_takes_back_are_named() -> None:
     hull.checkpoint("as drawn")
     assert not hull.fair(noise=0.2e-3, since="as drawn", dry_run=True).found.taken_back
     with hull.edit("a fuller shoulder") as edit:
-        edit.move("WL 2.5 x ST 7", y=hull["WL 2.5 x ST 7"].y + 0.02)
+        edit.move("WL 2.5 x ST 7", y=hull.points["WL 2.5 x ST 7"].y + 0.02)
     hull.fair(noise=0.2e-3)
     report = hull.fair(noise=0.2e-3, since="as drawn", dry_run=True)
     (point,) = report.found.taken_back

@@ -30,7 +30,7 @@ def dented() -> Hull:
     """A Wigley hull with a point that is 5 mm out."""
     hull = examples.wigley()
     with hull.edit("push a point") as edit:
-        edit.move("WL 2.5 x ST 7", y=hull["WL 2.5 x ST 7"].y + 0.005)
+        edit.move("WL 2.5 x ST 7", y=hull.points["WL 2.5 x ST 7"].y + 0.005)
     return hull
 
 
@@ -57,7 +57,7 @@ def test_a_dent_is_the_hottest_place_and_a_fair_hull_is_cold(
     """13 times the usual is the last class; on the hull as it is nothing comes near to 3."""
     figure = dented.plot.lines_plan(heat="ratio")
     view = lay_out_views(drawing(dented), PAPERS["A3"]).half
-    place = view.on_paper(dented["WL 2.5 x ST 7"].position[None])[0]
+    place = view.on_paper(dented.points["WL 2.5 x ST 7"].position[None])[0]
     assert nearest(lines_of(figure, "heat 5/half-breadth/WL 2.5$"), place) < 0.01
     cold = wigley.plot.lines_plan(heat="ratio")
     assert lines_of(cold, "heat 0/")
@@ -68,7 +68,7 @@ def test_residuals_are_coloured_by_their_size_in_millimetres(dented: Hull, lines
     """3.8 mm lies between 3 and 10, the fourth class; the legend tells the limits."""
     figure = dented.plot.combs(heat="residual")
     view = lay_out_views(drawing(dented), PAPERS["A3"]).half
-    place = view.on_paper(dented["WL 2.5 x ST 7"].position[None])[0]
+    place = view.on_paper(dented.points["WL 2.5 x ST 7"].position[None])[0]
     assert nearest(lines_of(figure, "heat 3/half-breadth/WL 2.5$"), place) < 0.01
     words = [text.get_text() for text in figure.axes[0].texts]
     assert "A batten springs off the point by, mm" in words
@@ -139,7 +139,7 @@ def test_movements_are_drawn_so_many_times_as_large(
     scale = lay_out_views(drawing(hull), PAPERS["A3"]).half.denominator
     (teeth,) = lines_of(figure, f"half-breadth/{way}/teeth/WL 2.5$")
     size = np.hypot(*(teeth[1::3] - teeth[0::3]).T).max()
-    seen = 1.0 / np.hypot(1.0, across_normal(hull["WL 2.5 x ST 7"].position))
+    seen = 1.0 / np.hypot(1.0, across_normal(hull.points["WL 2.5 x ST 7"].position))
     assert size == pytest.approx(20.0 * 50.0 * seen / scale, rel=0.01)
     words = [text.get_text() for text in figure.axes[0].texts]
     assert any(f"50 times: 1 mm on paper for {scale / 50.0:.3g} mm" in each for each in words)
