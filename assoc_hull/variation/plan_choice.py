@@ -34,7 +34,6 @@ from assoc_hull.variation.comparing.line_fairness import (
     compare_fairness,
     measure_fairness,
 )
-from assoc_hull.variation.faired_followers import ParentLines
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.stages import Plan, class_plan, finer_plan, single_plan
 from assoc_hull.variation.request import TargetRequest, VariationRequest
@@ -74,7 +73,12 @@ def choose_plan(
         What is wrong with a single value, or with targets.
     """
     before = parent_fairness(edit.state)
-    lines = ParentLines.of(edit.state, before) if ask.fair else None
+    lines = None
+    if ask.fair:
+        # What solves sparse systems is imported by whoever asks for it.
+        from assoc_hull.variation.faired_followers import ParentLines
+
+        lines = ParentLines.of(edit.state, before)
     best = list[tuple[float, int, SettledPlan]]()
     refusal: tuple[AssocHullError, StagedCarry] | None = None
     tried, there = set[tuple[Plan, bool]](), None

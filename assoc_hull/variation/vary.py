@@ -9,7 +9,7 @@ planes that went along, values that changed as well.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import attrs
 import numpy as np
@@ -26,7 +26,6 @@ from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.certificate.fold_check import Certificate, fold_outside
 from assoc_hull.variation.comparing.line_fairness import FairnessComparison
 from assoc_hull.variation.earlier_values import left_values, values_before, values_of_variation
-from assoc_hull.variation.faired_followers import FairedFollowers
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
@@ -38,6 +37,9 @@ from assoc_hull.variation.parameters.parent import Parent
 from assoc_hull.variation.parameters.value_limits import present_values
 from assoc_hull.variation.plan_choice import KINK, choose_plan, parent_fairness
 from assoc_hull.variation.request import VariationRequest, script_of
+
+if TYPE_CHECKING:
+    from assoc_hull.variation.faired_followers import FairedFollowers
 
 __all__ = [
     "Target",

@@ -10,6 +10,7 @@ time. Targets of outputs are reached on the hull that the plan gives, in each ro
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import attrs
 import numpy as np
@@ -24,16 +25,14 @@ from assoc_hull.variation.aiming.target_solver import solve_targets
 from assoc_hull.variation.carrying.admissible_values import SAME, AdmissibleValues
 from assoc_hull.variation.carrying.carry_stages import CarriedMap, StagedCarry
 from assoc_hull.variation.carrying.hull_maps import HullMaps
-from assoc_hull.variation.faired_followers import (
-    FairedFollowers,
-    fair_followers,
-    repeat_fairing,
-)
 from assoc_hull.variation.parameters.catalogue import CATALOGUE, Freedom
 from assoc_hull.variation.parameters.compose_map import refuse_clashes
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.value_limits import present_values
 from assoc_hull.variation.request import TargetRequest, VariationRequest
+
+if TYPE_CHECKING:
+    from assoc_hull.variation.faired_followers import FairedFollowers
 
 __all__ = [
     "PROMISED",
@@ -253,6 +252,9 @@ def _faired(carry: StagedCarry, again: FairedFollowers | None) -> FairedFollower
     fair, lines, edit = carry.ask.fair, carry.lines, carry.edit
     if lines is None:
         return None
+    # What solves sparse systems is imported by whoever asks for it.
+    from assoc_hull.variation.faired_followers import fair_followers, repeat_fairing
+
     if again is not None:
         return repeat_fairing(edit, lines, again)
     within = _USUAL * edit.state.tolerances.factor if fair is True else float(fair)

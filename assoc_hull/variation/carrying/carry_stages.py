@@ -7,6 +7,7 @@ who has the edit sees the hull between them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
 import attrs
 import numpy as np
@@ -17,12 +18,14 @@ from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.variation.carrying.admissible_values import SAME, AdmissibleValues
 from assoc_hull.variation.carrying.carry_hull import AppliedMap, carry_map
 from assoc_hull.variation.certificate.fold_check import Certificate
-from assoc_hull.variation.faired_followers import ParentLines
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.stages import Plan, Stage, refined_plan
 from assoc_hull.variation.request import VariationRequest
+
+if TYPE_CHECKING:
+    from assoc_hull.variation.faired_followers import ParentLines
 
 __all__ = ["CarriedMap", "StagedCarry"]
 
