@@ -418,6 +418,7 @@ class FairAnswer:
         edit.followed = net.followed(state, self.leads)
         for (lead, stretch), led in zip(pairs, edit.led, strict=True):
             edit.notes += net.notes(state, lead, stretch, led)
+        edit.notes.append(net.reach(state, self.leads))
         lines = {str(state.lines.key[state.line_of(each.curve)]): each.name for each in self.leads}
         edit.notes += second_doses(edit.document, lines)
 

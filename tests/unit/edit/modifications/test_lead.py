@@ -230,6 +230,7 @@ def test_the_report_lists_what_followed_and_a_preview_foretells_it(carrier: Hull
         in told
     )
     assert len(crossings) > 8
+    assert "points move by more than 1 mm from x -5.0 to 6.8 m, and by 2.0 mm the other" in told
 
 
 def test_a_line_that_followed_gets_a_note_until_the_next_checkpoint(shipped: Shipped) -> None:
