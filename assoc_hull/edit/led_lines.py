@@ -253,6 +253,17 @@ class NetBefore:
                 "side of what is asked: with less than 2 it makes a dimple, name a longer one"
             )
 
+    def reach(self, state: HullState, leads: Sequence[LineLed]) -> str:
+        """Say where points have moved by more than 1 mm, and how far any has the other way."""
+        asked = self.outward(state, np.concatenate([lead.rows for lead in leads]))
+        rows = np.flatnonzero(state.rows.alive.data[: len(self.xyz)])
+        amount = self.outward(state, rows)
+        far = state.rows.xyz.data[rows[np.abs(amount) > 1e-3], 0]
+        where = f"from x {far.min():.1f} to {far.max():.1f} m" if len(far) else "nowhere"
+        most = float(asked[np.abs(asked).argmax()])
+        other = float((-np.sign(most) * amount).max(initial=0.0))
+        return f"points move by more than 1 mm {where}, and by {1e3 * other:.1f} mm the other way"
+
     def _crossings(self, state: HullState, lead: LineLed) -> list[int]:
         here = (state.rows.curve.data[: len(self.xyz)] == lead.curve).any(axis=1)
         return np.flatnonzero(here & state.rows.alive.data[: len(self.xyz)]).tolist()

@@ -35,7 +35,7 @@ from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.led_lines import LineLed, NetBefore, Stretch, find_stretch, second_doses
 from assoc_hull.edit.net_battens import fairable_rows, net_battens
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError, PointRoleError, RefusedEditError
+from assoc_hull.errors import BadInputError, CoincidentPointsError, PointRoleError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.geometry.splines.distance import closest_points
@@ -426,6 +426,7 @@ class FairAnswer:
         edit.followed = net.followed(state, self.leads)
         for (lead, stretch), led in zip(pairs, edit.led, strict=True):
             edit.notes += net.notes(state, lead, stretch, led)
+        edit.notes.append(net.reach(state, self.leads))
         lines = {str(state.lines.key[state.line_of(each.curve)]): each.name for each in self.leads}
         edit.notes += second_doses(edit.document, lines)
 
@@ -512,6 +513,8 @@ class _Search:
         waiting: list[_Candidate] = []
         for heavier, scale, turn in product((_HEAVIER, _GENTLER), _SCALES, range(len(_RADII))):
             candidate = self._foretold(turn, scale, heavier)
+            if candidate is None:
+                continue
             if candidate.count:
                 waiting.append(candidate)
                 continue
@@ -538,8 +541,11 @@ class _Search:
             best = _better(best, self._try(self._solved(candidate, weight)))
         return best
 
-    def _foretold(self, turn: int, scale: float, heavier: tuple[float, ...]) -> _Candidate:
-        """Give the answer of a radius that is foretold to gain the fewest sign changes."""
+    def _foretold(self, turn: int, scale: float, heavier: tuple[float, ...]) -> _Candidate | None:
+        """Give the answer of a radius that is foretold to gain the fewest sign changes.
+
+        None where a curve could not pass the points, as where two come to lie in one place.
+        """
         self._take_back()  # what is foretold starts from the hull as it is
         problem, state = self.problem, self.edit.state
         xyz = state.rows.xyz[problem.rows]
@@ -550,7 +556,11 @@ class _Search:
         for times in (*heavier, 1.0):
             answer, side = self.least.answer(fade, scale, weight, side)
             delta = np.round(answer, _ROUNDED)
-            gained = self.counts.gained(state, self._lofted(delta))
+            try:
+                gained = self.counts.gained(state, self._lofted(delta))
+            except CoincidentPointsError as error:
+                self.refusal = RefusedEditError(self.edit.name, (str(error),))
+                return best
             count = sum(each[2] for each in gained.values())
             if best is None or count < best.count:
                 best = _Candidate(turn, scale, fade, weight, delta, count)
@@ -586,7 +596,8 @@ class _Search:
         curves = np.array(through, np.int64)
         data = curve_data(state, curves)
         points = np.concatenate([state.curves.rows.data[curve] for curve in curves.tolist()])
-        batch = loft(attrs.evolve(data, xyz=xyz[points]))
+        names = [str(state.curves.key[curve]) for curve in curves.tolist()]
+        batch = loft(attrs.evolve(data, xyz=xyz[points]), names)
         return {curve: batch.curve(place) for place, curve in enumerate(curves.tolist())}
 
     def _try(self, candidate: _Candidate) -> _Trial | None:

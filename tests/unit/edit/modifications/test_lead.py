@@ -17,6 +17,7 @@ from assoc_hull.edit.session import Edit
 from assoc_hull.errors import (
     BadInputError,
     PointRoleError,
+    RefusedEditError,
     UnknownNameError,
     WrongTypeError,
 )
@@ -229,6 +230,7 @@ def test_the_report_lists_what_followed_and_a_preview_foretells_it(carrier: Hull
         in told
     )
     assert len(crossings) > 8
+    assert "points move by more than 1 mm from x -5.0 to 6.8 m, and by 2.0 mm the other" in told
 
 
 def test_a_line_that_followed_gets_a_note_until_the_next_checkpoint(shipped: Shipped) -> None:
@@ -477,6 +479,16 @@ def test_a_place_beside_a_placed_point_is_asked_of_that_point(wigley: Hull) -> N
     with wigley.edit("Q") as edit:
         edit.lead("WL 2.5", [literal_eval(given)])
     assert wigley.points["WL 2.5 @ placed 1"].y == pytest.approx(place[1], abs=1e-6)
+
+
+def test_a_point_that_is_led_onto_another_is_refused(wigley: Hull) -> None:
+    """Line and distance are told."""
+    line = wigley.lines["WL 2.5"].curves[0]
+    with wigley.edit("P and Q") as edit:
+        first, second = (edit.insert(line, line.at(t)) for t in (36.0, 39.0))
+    with pytest.raises(RefusedEditError, match="closer than 1e-06"), wigley.edit("x") as edit:
+        edit.lead(line, [(second, np.add(first.position, (0.0, 1e-8, 0.0)))])
+    assert len(wigley.history) == 1
 
 
 def test_a_crossing_that_another_line_drives_names_its_driver(fresh_series60_70: Hull) -> None:
