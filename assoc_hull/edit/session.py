@@ -428,7 +428,7 @@ class Edit:
         >>> with hull.edit("5 mm out, and the hull with it") as edit:
         ...     edit.lead("WL 2.5", [("WL 2.5 x ST 7", (x, y + 0.005, z))])
         ()
-        >>> hull["WL 2.5 x ST 7"].y - y > 0.00499, len(edit.report.led)
+        >>> bool(hull["WL 2.5 x ST 7"].y - y > 0.00499), len(edit.report.led)
         (True, 1)
         """
         given = self._given
