@@ -97,6 +97,16 @@ def test_only_the_stretch_is_drawn_and_larger(bulk_carrier: Hull, lines_of: Line
     assert not lines_of(figure, "body/sections/ST 10$")
 
 
+def test_a_buttock_that_a_stretch_cuts_off_is_named_once(
+    bulk_carrier: Hull, boxes_of: Boxes
+) -> None:
+    """At its end on the deck; where the stretch has no other end of it, at the cut."""
+    names = list(boxes_of(bulk_carrier.plot.lines_plan(x=(-5.5, 20.0))))
+    found = [key.split("label/profile/buttocks/")[1] for key in names if "profile/butt" in key]
+    assert len([each for each in found if each.split(" ")[0] == "18.5"]) == 1
+    assert len([each for each in found if each.split(" ")[0] == "21"]) == 1
+
+
 @pytest.mark.parametrize("picture", ["lines_plan", "combs"])
 @pytest.mark.parametrize("name", ["bulk_carrier", "series60"])
 def test_labels_of_a_stretch_lie_apart_and_within_the_frame(
