@@ -71,7 +71,7 @@ def test_residuals_are_coloured_by_their_size_in_millimetres(dented: Hull, lines
     place = view.on_paper(dented["WL 2.5 x ST 7"].position[None])[0]
     assert nearest(lines_of(figure, "heat 3/half-breadth/WL 2.5$"), place) < 0.01
     words = [text.get_text() for text in figure.axes[0].texts]
-    assert "A batten springs off the point by, mm" in words
+    assert "Batten residual (how far it springs off), mm" in words
     assert {"0.3", "1", "3", "10", "30"} <= set(words)
 
 
