@@ -220,8 +220,22 @@ COLOURS = {
     "hull_plates": 64,
     "hull_surface": 48,
 }  # 0: all
-COLOURS |= dict.fromkeys(("carrier_combs", "counter", "stern_heat", "stern_faired"), 24)
+COLOURS |= dict.fromkeys(("carrier_combs", "counter", "stern_heat", "stern_faired"), 48)
 COLOURS |= dict.fromkeys(("form_curve", "curvature_lines", "lines_plan_dxf"), 256)
+
+
+def few_colours(image: Image.Image, count: int) -> Image.Image:
+    """Give a picture in as many colours: the commonest as they are, the others near to theirs.
+
+    The usual method drops colours of few pixels: classes of a legend, a thin blue line.
+    """
+    half = count // 2
+    found = image.getcolors(image.width * image.height) or []
+    common = [colour for _, colour in sorted(found, key=lambda each: (-each[0], each[1]))[:half]]
+    rest = image.quantize(count - half, Image.Quantize.MAXCOVERAGE).getpalette() or []
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([part for colour in common for part in colour] + rest[: 3 * (count - half)])
+    return image.quantize(palette=palette, dither=Image.Dither.NONE)
 
 
 def write(name: str) -> int:
@@ -234,7 +248,7 @@ def write(name: str) -> int:
     colours = COLOURS.get(name, 64)
     with Image.open(path) as image:
         plain = image.convert("RGB")
-        (plain.quantize(colours) if colours else plain).save(path, optimize=True)
+        (few_colours(plain, colours) if colours else plain).save(path, optimize=True)
     return path.stat().st_size
 
 

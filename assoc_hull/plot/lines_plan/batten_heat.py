@@ -37,11 +37,11 @@ _EDGES = {"residual": (0.3, 1.0, 3.0, 10.0, 30.0), "ratio": (0.5, 1.0, 2.0, 3.0,
 _COLOURS = ("#a9c4dc", "#5b9bd0", "#2f9e6e", "#e0a100", "#e2571e", "#a3001e")
 _WIDTHS = (0.22, 0.3, 0.38, 0.5, 0.62, 0.74)  # wider where it is more: it is read without colours
 _TITLES = {
-    "residual": "A batten springs off the point by, mm",
-    "ratio": "It springs, against the lines beside: times the usual",
+    "residual": "Batten residual (how far it springs off), mm",
+    "ratio": "Batten residual against lines beside, over the usual",
 }
 _FEET = {
-    "residual": "Not coloured: no batten is looked at.",
+    "residual": "Not coloured: not judged (ends, features).",
     "ratio": "More than 3: unfair. Not coloured: too few lines beside.",
 }
 _WIDE, _TALL = 11.0, 3.2  # of a swatch of the legend, mm at A3

@@ -330,7 +330,7 @@ _COMB_PLAN_TEETH = 6
 _COMB_PLAN_USUAL, _COMB_PLAN_CUT = (
     6.0,
     12.0,
-)  # mm at A3: a tooth longer than 19 of 20, and the longest that is drawn
+)  # mm at A3: about the tooth longer than 19 of 20, and the longest that is drawn
 _COMB_PLAN_PENS = Pen(0.04, "#9cc0de", over=1.5), Pen(0.09, "#0b5fa5", over=1.8)
 _GREY_PLAN_PENS = Pen(0.04, "0.8", over=1.5), Pen(0.09, "0.5", over=1.8)
 _COURSE = Pen(0.13, over=2.5)
@@ -344,7 +344,8 @@ def combs_plan(
     """Draw all lines with their curvature combs, each family in the view that shows it true.
 
     Teeth stand on the outside, dots are inflections. Each view has its own scale of curvature,
-    such that 19 of 20 teeth are at most 6 mm long (at A3); teeth of more than 12 mm are cut.
+    stated for a tooth of 10 mm on paper: a number of one digit, such that 19 of 20 teeth are at
+    most 4 to 9 mm long (at A3). Teeth of more than 12 mm are cut.
 
     Parameters
     ----------
@@ -399,7 +400,7 @@ def combs_plan(
         low = float(layout.low[2]) if view.axes[1] == 2 else 0.0
         told.append((
             (view.across(middle), view.up(low) - 13.0 * factor),
-            f"{words}  1:{view.denominator:g};  tooth of 10 mm: {curvature:.3g} 1/m",
+            f"{words}  1:{view.denominator:g};  tooth of 10 mm: {curvature:g} 1/m",
         ))  # fmt: skip
         rows.append((f"Inflections, {words.lower()}", f"{bends}"))
     notes = ["Combs stand on the outside; dots are inflections between lobes of 0.2 degrees."]
@@ -440,7 +441,9 @@ def _view(
     if not found:
         return 0, 0.0
     size = np.concatenate([np.hypot(*comb.tooth.T) for comb in found])
-    high = _COMB_PLAN_USUAL * factor / max(_usual(size), 1e-9)
+    usual = max(_usual(size), 1e-9)
+    per_ten = float(f"{10.0 * usual / (_COMB_PLAN_USUAL * factor):.1g}")  # one that is easily read
+    high = 10.0 / per_ten
     for view, lines in shown:
         for line in lines:
             for points in line.polylines:
@@ -455,7 +458,7 @@ def _view(
         sheet.line(teeth, pens[0], f"teeth/{name}")
         sheet.line(tip, pens[1], f"tips/{name}")
         sheet.dots(comb.bends, TINT, 0.9, f"inflections/{name}")
-    return sum(len(comb.bends) for comb in found), 10.0 * factor / high
+    return sum(len(comb.bends) for comb in found), per_ten
 
 
 def _combs(view: View, line: PlotLine, window: tuple[float, float] | None) -> list[_CombPlanComb]:

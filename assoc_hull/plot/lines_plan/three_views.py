@@ -408,6 +408,8 @@ class Views:
                 tops = [
                     end for end in (points[0], points[-1]) if end[1] > view.up(self.middle_height)
                 ]
+                # where a stretch cuts a line off, its name stands at the other end, if that is up
+                tops = [end for end in tops if not self._cut_off(view, end)] or tops
                 ends += tops
                 words += [line.label] * len(tops)
         top = view.up(self.high[2]) + 3.2 * self.sheet.paper.factor
@@ -417,6 +419,10 @@ class Views:
             upright=True, heading="BTK", name="label/profile/buttocks",
         )  # fmt: skip
         self.grid.levels(view, self.low[0], self.high[0])
+
+    def _cut_off(self, view: View, end: FloatArray) -> bool:
+        """Whether the window of the drawing ends a line there, mm on paper."""
+        return any(abs(end[0] - view.across(x)) < 1e-6 for x in self.drawing.window or ())
 
     @property
     def middle_height(self) -> float:

@@ -71,7 +71,7 @@ def test_residuals_are_coloured_by_their_size_in_millimetres(dented: Hull, lines
     place = view.on_paper(dented.points["WL 2.5 x ST 7"].position[None])[0]
     assert nearest(lines_of(figure, "heat 3/half-breadth/WL 2.5$"), place) < 0.01
     words = [text.get_text() for text in figure.axes[0].texts]
-    assert "A batten springs off the point by, mm" in words
+    assert "Batten residual (how far it springs off), mm" in words
     assert {"0.3", "1", "3", "10", "30"} <= set(words)
 
 
@@ -95,6 +95,16 @@ def test_only_the_stretch_is_drawn_and_larger(bulk_carrier: Hull, lines_of: Line
                 assert points[:, 0].max() <= edges[1] + 1e-9
     assert lines_of(figure, "body/sections/ST 2$")
     assert not lines_of(figure, "body/sections/ST 10$")
+
+
+def test_a_buttock_that_a_stretch_cuts_off_is_named_once(
+    bulk_carrier: Hull, boxes_of: Boxes
+) -> None:
+    """At its end on the deck; where the stretch has no other end of it, at the cut."""
+    names = list(boxes_of(bulk_carrier.plot.lines_plan(x=(-5.5, 20.0))))
+    found = [key.split("label/profile/buttocks/")[1] for key in names if "profile/butt" in key]
+    assert len([each for each in found if each.split(" ")[0] == "18.5"]) == 1
+    assert len([each for each in found if each.split(" ")[0] == "21"]) == 1
 
 
 @pytest.mark.parametrize("picture", ["lines_plan", "combs"])
