@@ -368,9 +368,7 @@ class FairAnswer:
         net, stretches = NetBefore.of(state), self._lead()
         every = np.concatenate([each.rows for each in self.asked])
         if not state.rows.alive[every].all():
-            what = "a point that is asked to move has gone in the same edit"
-            where = f"in the edit {self.edit.name!r}"
-            raise BadInputError(what, where, "use two edits")
+            raise self._gone()
         self._refuse_changed(np.concatenate([every, [each.point for each in self.asked]]))
         self.asked.sort(key=_order)
         keep, lacks = self.edit.stages, 1.0
@@ -402,6 +400,9 @@ class FairAnswer:
             return []
         state = self.edit.state
         rows = np.unique(np.concatenate([each.rows for each in self.leads]))
+        for each in self.leads:
+            if not np.isin(each.rows, state.curves.rows.data[each.curve]).all():
+                raise self._gone()
         self._refuse_changed(rows)
         free = fairable_rows(state)
         self.leads.sort(key=lambda each: (each.rows.tolist(), str(each.span)))
@@ -428,6 +429,11 @@ class FairAnswer:
             edit.notes += net.notes(state, lead, stretch, led)
         lines = {str(state.lines.key[state.line_of(each.curve)]): each.name for each in self.leads}
         edit.notes += second_doses(edit.document, lines)
+
+    def _gone(self) -> BadInputError:
+        """Give the error of a point that the same edit has taken away, or off its line."""
+        what = "a point that is asked to move has gone in the same edit"
+        return BadInputError(what, f"in the edit {self.edit.name!r}", "use two edits")
 
     def _refuse_changed(self, rows: IntArray) -> None:
         """Refuse points whose lines or role the same edit has changed, before or after it asked.
