@@ -400,10 +400,10 @@ class FairAnswer:
             return []
         state = self.edit.state
         rows = np.unique(np.concatenate([each.rows for each in self.leads]))
+        self._refuse_changed(rows)
         for each in self.leads:
             if not np.isin(each.rows, state.curves.rows.data[each.curve]).all():
                 raise self._gone()
-        self._refuse_changed(rows)
         free = fairable_rows(state)
         self.leads.sort(key=lambda each: (each.rows.tolist(), str(each.span)))
         stretches = [find_stretch(state, each, rows, free) for each in self.leads]
@@ -486,9 +486,13 @@ class _Search:
         ):
             if lost.any():
                 first = int(rows[lost][0])
-                name = next(each.name for each in asked if first in each.rows.tolist())
+                mine = next(each for each in asked if first in each.rows.tolist())
+                name = mine.name
                 if state.rows.sort[first] == Sort.CROSSING:
                     name = address(state, first)
+                elif isinstance(mine, ShapeAsked):
+                    x, y, z = state.rows.xyz[first].tolist()
+                    name = f"the place of {name} at ({x:.3f}, {y:.3f}, {z:.3f}) m"
                 raise PointRoleError(name, kind, None, "ask for another point")
         places = _places(state, asked, rows, problem.moves[index])
         step = places - state.rows.xyz[rows]
