@@ -203,10 +203,10 @@ class GivenObjects:
         for each in drivers:
             if isinstance(each, Group) and each.home is not tables.live_tables:
                 raise ForeignPointError(repr(each))
-            name = self.group_named(each.name if isinstance(each, Group) else each)
-            if name is not None:
+            name = each.name if isinstance(each, Group) else self.group_named(each)
+            if isinstance(each, Group) or name is not None:
                 live = tables.live("lines")
-                found += live[tables.lines.group[live] == names.index(name)].tolist()
+                found += live[tables.lines.group[live] == names.index(str(name))].tolist()
             else:
                 found.append(self.line(each))
         return found
