@@ -84,7 +84,7 @@ def shown_name(value: object) -> str:
 
 
 _NUMBER = re.compile(r"(\d+)(?:[.,](\d+))?")
-_GAP = re.compile(r"(?<!\d)\s+|\s+(?!\d)")
+_GAP = re.compile(r"(?<![\d\s])\s+|\s+(?![\d\s])")
 
 
 def plain_name(name: str) -> str:
@@ -340,7 +340,7 @@ def all_of(values: object, kind: type[Kind], name: str, where: str = _CALL) -> l
     """
     single = isinstance(values, str | bytes) or getattr(values, "ndim", 1) == 0
     if single or not isinstance(values, Iterable):
-        remedy = f"give a list of {kind.__name__}"
+        remedy = "give a list" if kind is object else f"give a list of {kind.__name__}"
         raise WrongTypeError(f"{name} is {shown(values)}", where, remedy)
     given = cast("Iterable[object]", values)
     return [instance(each, kind, f"an item of {name}", where) for each in given]

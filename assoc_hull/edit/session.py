@@ -739,7 +739,10 @@ class Edit:
         A diagonal takes ``(height, angle)``: where its plane meets the centre plane, m, and by
         how many degrees it falls outward from the horizontal.
         """
-        title = group if isinstance(group, str) else self._given.group(group)
+        if isinstance(group, str):
+            title = self._given.group_named(group) or group
+        else:
+            title = self._given.group(group)
         line = _cut.add_line(self._transaction, title, position, name)
         return Line.of(self._tables, line)
 

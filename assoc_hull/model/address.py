@@ -39,6 +39,7 @@ _OWN = re.compile(r"(.+) @ (placed|adopted) (\d{1,9})")
 _BIRTH = re.compile(r"(.+?) #(\d{1,9})")
 _PIECE = re.compile(r"(.+) \[(\d{1,9})\]")
 _SIGN = re.compile(r"\s+([x\N{MULTIPLICATION SIGN}@])\s+", re.IGNORECASE)
+_CLOSE = re.compile(r"(?:(?<=\d)|\s)\s*([x\N{MULTIPLICATION SIGN}])\s*(?=[^\d\s])", re.IGNORECASE)
 _NUMBERED = re.compile(r"(.+?)(?:\s*(\[\d{1,9}\]|#\d{1,9}))?")
 
 
@@ -186,8 +187,9 @@ class AddressBook:
 
     def _lookup(self, text: str) -> ResolvedAddress | None:
         found = self._as_written(text)
-        if found is None and (proper := self._proper(text)) is not None:
-            found = self._as_written(proper)
+        for sign in (_SIGN, _CLOSE):
+            if found is None and (proper := self._proper(text, sign)) is not None:
+                found = self._as_written(proper)
         return found
 
     def _as_written(self, text: str) -> ResolvedAddress | None:
@@ -199,9 +201,9 @@ class AddressBook:
             or self.keys.get(text)
         )
 
-    def _proper(self, text: str) -> str | None:
+    def _proper(self, text: str, sign: re.Pattern[str]) -> str | None:
         """Give an address with its names as the hull has them; None where they are not found."""
-        parts = _SIGN.split(text)
+        parts = sign.split(text)
         found: list[str] = []
         for at, part in enumerate(parts):
             if at % 2 or (at and parts[at - 1] == "@"):

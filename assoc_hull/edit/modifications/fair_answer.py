@@ -368,9 +368,7 @@ class FairAnswer:
         net, stretches = NetBefore.of(state), self._lead()
         every = np.concatenate([each.rows for each in self.asked])
         if not state.rows.alive[every].all():
-            what = "a point that is asked to move has gone in the same edit"
-            where = f"in the edit {self.edit.name!r}"
-            raise BadInputError(what, where, "use two edits")
+            raise self._gone()
         self._refuse_changed(np.concatenate([every, [each.point for each in self.asked]]))
         self.asked.sort(key=_order)
         keep, lacks = self.edit.stages, 1.0
@@ -403,6 +401,9 @@ class FairAnswer:
         state = self.edit.state
         rows = np.unique(np.concatenate([each.rows for each in self.leads]))
         self._refuse_changed(rows)
+        for each in self.leads:
+            if not np.isin(each.rows, state.curves.rows.data[each.curve]).all():
+                raise self._gone()
         free = fairable_rows(state)
         self.leads.sort(key=lambda each: (each.rows.tolist(), str(each.span)))
         stretches = [find_stretch(state, each, rows, free) for each in self.leads]
@@ -429,6 +430,11 @@ class FairAnswer:
         edit.notes.append(net.reach(state, self.leads))
         lines = {str(state.lines.key[state.line_of(each.curve)]): each.name for each in self.leads}
         edit.notes += second_doses(edit.document, lines)
+
+    def _gone(self) -> BadInputError:
+        """Give the error of a point that the same edit has taken away, or off its line."""
+        what = "a point that is asked to move has gone in the same edit"
+        return BadInputError(what, f"in the edit {self.edit.name!r}", "use two edits")
 
     def _refuse_changed(self, rows: IntArray) -> None:
         """Refuse points whose lines or role the same edit has changed, before or after it asked.
@@ -481,9 +487,13 @@ class _Search:
         ):
             if lost.any():
                 first = int(rows[lost][0])
-                name = next(each.name for each in asked if first in each.rows.tolist())
+                mine = next(each for each in asked if first in each.rows.tolist())
+                name = mine.name
                 if state.rows.sort[first] == Sort.CROSSING:
                     name = address(state, first)
+                elif isinstance(mine, ShapeAsked):
+                    x, y, z = state.rows.xyz[first].tolist()
+                    name = f"the place of {name} at ({x:.3f}, {y:.3f}, {z:.3f}) m"
                 raise PointRoleError(name, kind, None, "ask for another point")
         places = _places(state, asked, rows, problem.moves[index])
         step = places - state.rows.xyz[rows]

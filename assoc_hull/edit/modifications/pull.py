@@ -15,6 +15,8 @@ from assoc_hull.edit.crossings.adopted_points import insert_defining_point
 from assoc_hull.edit.displacement_field import (
     FieldContext,
     PullField,
+    on_flat,
+    on_profile,
     row_spacing,
     spacing_along,
 )
@@ -37,6 +39,8 @@ be pulled at."""
 
 _STATIONS = 2.0
 """Spacings along the length that a fair answer reaches at least, if the first one is not fair."""
+
+_PLAIN = ", without fair"
 
 
 def pull(
@@ -73,12 +77,14 @@ def pull(
     PointRoleError
         The point lies on a flat, or on the profile.
     """
-    # What was written by now the published numbers do not know of.
-    numbers = None if edit.journal.entries else known_numbers(edit.document)
-    field = pull_field(edit.state, row, amount, radius, across_flats=across_flats, numbers=numbers)
     if fair and across_flats:
         what = "a fair answer keeps flats as they are"
         raise BadInputError(what, "in pull", "leave fair or across_flats out")
+    # What was written by now the published numbers do not know of.
+    numbers = None if edit.journal.entries else known_numbers(edit.document)
+    field = pull_field(
+        edit.state, row, amount, radius, across_flats=across_flats, fair=fair, numbers=numbers
+    )
     if fair and amount != 0.0:
         # What solves sparse systems is imported by whoever asks for it.
         from assoc_hull.edit.modifications.fair_answer import FairAnswer, PullAsked
@@ -100,6 +106,7 @@ def pull_field(
     radius: tuple[float, float] | None,
     *,
     across_flats: bool,
+    fair: bool = False,
     numbers: tuple[Program, Values] | None = None,
 ) -> PullField:
     """Give the field of a pull; it raises as `pull`. `numbers` are as `FieldContext` takes them."""
@@ -111,12 +118,11 @@ def pull_field(
     ground = FieldContext(state, across_flats, numbers)
     border = _border_distance(ground, row, reach[1])
     if border is None:
-        raise PointRoleError(
-            state.rows.key[row],
-            "on a flat or on the profile, or its normal is not known",
-            None,
-            "move the border curve, or pull with across_flats=True",
-        )
+        remedy = "move the border curve, or pull a point beside it"
+        if (on_flat(state) & ~on_profile(state))[row] and not across_flats:
+            remedy = f"move the border curve, or pull with across_flats=True{_PLAIN * fair}"
+        kind = "on a flat or on the profile, or its normal is not known"
+        raise PointRoleError(address(state, row), kind, None, remedy)
     fade, normal = min(reach[1], border), ground.normals(np.array([row]))[0].copy()
     return PullField(row, place, amount, normal, reach, fade, across_flats)
 

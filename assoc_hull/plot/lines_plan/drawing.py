@@ -13,7 +13,6 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.hull_normals import hull_normals
-from assoc_hull.errors import UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
@@ -21,6 +20,7 @@ from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind
 from assoc_hull.model.line_source import LineSource, line_curve_data
+from assoc_hull.model.named_mapping import NamedMapping
 from assoc_hull.model.tables import HasState, HullState, Particulars, state_of
 from assoc_hull.plot.sheet.paper import HEAVY, LINE, TINT, Pen
 
@@ -177,10 +177,9 @@ class Drawing:
         UnknownNameError
             There is none.
         """
-        for line in self.lines:
-            if line.name == name:
-                return line
-        raise UnknownNameError("line", name, tuple(line.name for line in self.lines))
+        # Of several lines of a name the first.
+        named = {line.name: line for line in reversed(self.lines)}
+        return NamedMapping("line", named, spoken=True)[name]
 
     @property
     def profile(self) -> PlotLine | None:

@@ -78,9 +78,42 @@ def test_what_two_lines_may_mean_is_not_guessed() -> None:
     assert "Wl 2.50" not in hull.lines
 
 
-@pytest.mark.parametrize("text", ["WL 2.51", "WL", "2.5", "WL 2.5 x", "x ST 7", "WL 2 5", "ST 1 0"])
+@pytest.mark.parametrize(
+    "text", ["WL 2.51", "WL", "2.5", "WL 2.5 x", "x ST 7", "WL 2 5", "ST 1 0", "ST 1  0"]
+)
 def test_another_name_is_none(text: str) -> None:
     """Only the way of writing may differ."""
     hull = ah.examples.wigley()
     with pytest.raises(UnknownNameError):
         hull[text]
+
+
+@pytest.mark.parametrize("text", ["WL2.5xST7", "wl 2,5X st 7", "WL 2.5×ST 7", "wl2.5 xST7"])
+def test_a_crossing_needs_no_spaces(text: str) -> None:
+    """Spaces do not matter beside the cross either."""
+    assert ah.examples.wigley()[text].name == "WL 2.5 x ST 7"
+
+
+def test_groups_are_found_however_they_are_written() -> None:
+    """Where lines drive, where they are faired, and where one is added."""
+    one, other = ah.examples.wigley(), ah.examples.wigley()
+    for hull, drivers, group in (
+        (one, ["sections", "profile"], "waterlines"),
+        (other, ["Sections", "PROFILE"], "Waterlines"),
+    ):
+        with hull.edit("broader") as edit:
+            edit.transform(scale=(1, 1.1, 1), drivers=drivers)
+        with hull.edit("a line") as edit:
+            edit.add_line(group, 3.0)
+        hull.fair([group], noise=0.0005)
+    assert one.fingerprint == other.fingerprint
+
+
+def test_pictures_take_names_as_they_are_spoken() -> None:
+    """A name that is no line is refused as ever."""
+    hull = ah.examples.wigley()
+    assert hull.plot.lines_plan(highlight=["wl 2,50"])
+    assert hull.plot.curvature_combs(["wl 2,50", "st07"])
+    assert hull.plot.neighbourhood("wl 2,50")
+    with pytest.raises(UnknownNameError):
+        hull.plot.lines_plan(highlight=["WL 2.51"])

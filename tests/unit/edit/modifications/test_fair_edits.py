@@ -303,3 +303,18 @@ def test_flats_and_the_profile_are_not_led(carrier: Hull) -> None:
         edit.reshape(line, [place], span=(70.0, 110.0), fair=True)
     with pytest.raises(PointRoleError, match="profile"), carrier.edit("x") as edit:
         edit.pull("ST 0.5 x profile #3", 0.02, fair=True)
+
+
+def test_a_pull_on_a_flat_is_told_of_one_that_works(fresh_series60_70: Hull) -> None:
+    """Across flats only the plain field goes; on the profile that helps nothing."""
+    hull = fresh_series60_70
+    told = pytest.raises(PointRoleError, match=r"^WL 1 x ST 10 .* across_flats=True, without fair$")
+    with told, hull.edit("x") as edit:
+        edit.pull("WL 1 x ST 10", 0.01, fair=True)
+    with hull.edit("x") as edit:
+        edit.pull("WL 1 x ST 10", 0.01, across_flats=True)
+    name = next(name for name in hull.points if name.startswith("ST 1 x profile"))
+    for fair in (False, True):
+        beside = pytest.raises(PointRoleError, match=r"pull a point beside it$")
+        with beside, hull.edit("x") as edit:
+            edit.pull(name, 0.01, fair=fair)
