@@ -86,7 +86,8 @@ BACK = ("/graph/journal.py", "/graph/table.py", "/edit/transaction.py")
 ACTS: dict[str, tuple[Callable[[ah.Hull], None], int]] = {
     "a moved point": (_move, 1), "a point moved by the program": (_move_by_program, 1),
     "an inserted point": (_insert, 1), "undo": (_undo, 1), "redo": (_redo, 2),
-    "a checkpoint": (_name, 1), "what a file does for a move": (_move, 1), **{name: (act, 1) for name, act in TAKEN_BACK.items()},
+    "a checkpoint": (_name, 1), "what a file does for a move": (_move, 1),
+    **{name: (act, 1) for name, act in TAKEN_BACK.items()},
 }  # fmt: skip
 """Each with what is done before: 1 an edit, 2 an edit that is taken back."""
 

@@ -126,8 +126,8 @@ class PullAsked:
     amount : float, m
         By how much the points are to come out, so that the point comes as far as it is pulled.
     stations : float, m
-        How far the answer reaches along the length at least, after the first turn: where sections
-        stand far apart, the radius may reach none of them.
+        How far the answer reaches along the length at least: where sections stand far apart, the
+        radius reaches none of them, and a point that comes out alone is too flat a dent to be seen.
     """
 
     name: str
@@ -166,7 +166,7 @@ class PullAsked:
     def _radius(self, turn: int) -> tuple[float, float]:
         factor = _FACTORS[min(turn, len(_FACTORS) - 1)]
         along, girth = self.field.radius
-        return factor * max(along, self.stations if turn else 0.0), factor * girth
+        return factor * max(along, self.stations), factor * girth
 
     def reach(self, state: HullState, turn: int) -> str:
         """Say the radii."""

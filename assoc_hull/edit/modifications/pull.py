@@ -38,7 +38,7 @@ _NEAR = 0.15
 be pulled at."""
 
 _STATIONS = 2.0
-"""Spacings along the length that a fair answer reaches at least, if the first one is not fair."""
+"""Spacings along the length that a fair answer reaches at least."""
 
 _PLAIN = ", without fair"
 
