@@ -107,7 +107,7 @@ def pull_field(
     border = _border_distance(ground, row, reach[1])
     if border is None:
         raise PointRoleError(
-            state.rows.key[row],
+            address(state, row),
             "on a flat or on the profile, or its normal is not known",
             None,
             "move the border curve, or pull with across_flats=True",
