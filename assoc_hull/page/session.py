@@ -19,6 +19,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.drag import Drag, DragWay, Live
+from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.shapes import joined
 from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError, StaleHullError
@@ -55,15 +56,16 @@ class Client(Protocol):
         """Send a message; from any thread, without waiting."""
 
 
-@attrs.frozen(eq=False)
+@attrs.define(eq=False)
 class _Gesture:
-    """A point that somebody holds, on the state it was taken hold of."""
+    """A point that somebody holds; `let_go` once its end was asked for."""
 
     client: Client
     number: int
     row: int
     drag: Drag
     place: list[float]
+    let_go: bool = False
 
 
 class Session:
@@ -94,8 +96,11 @@ class Session:
         with self._awake:
             if isinstance(message, To):
                 self._drop_older(client, message.gesture)
-            if isinstance(message, Commit | Cancel) and (held := self._gesture) is not None:
-                held.drag.stop()
+            if isinstance(message, Commit | Cancel):
+                held = self._held(client, message.gesture)
+                if held is not None:
+                    held.let_go = True
+                    held.drag.stop()
             self._jobs.append((client, message))
             self._awake.notify()
 
@@ -225,17 +230,20 @@ class Session:
         if (held := self._held(client, message.gesture)) is None:
             return  # it was let go meanwhile
         live = held.drag.to(**message.amounts)
+        if held.let_go:
+            return  # nobody waits for the answer, which may be that it was stopped
         if live.refused:
             self._refuse(client, message.gesture, message.seq, live.refused, held.row)
         else:
             client.tell(pack(self._live(held.number, message.seq, live)))
 
     def _live(self, gesture: int, sequence: int, live: Live) -> Frame:
-        lcb = live.lcb_change
+        state, lcb = self.hull.state, live.lcb_change
+        way = (live.xyz - state.rows.xyz[live.rows]) * hull_normals(state)[live.rows]
         return Frame(
-            FrameKind.LIVE, self.hull.state_number, live.curves, live.spline, live.rows, live.xyz,
-            gesture, sequence, bool(live.born or live.gone), live.seconds, live.volume_change,
-            lcb if np.isfinite(lcb) else 0.0,
+            FrameKind.LIVE, state.number, live.curves, live.spline, live.rows, live.xyz, gesture,
+            sequence, bool(live.born or live.gone), live.seconds, live.volume_change,
+            lcb if np.isfinite(lcb) else 0.0, float(np.abs(way.sum(axis=1)).max(initial=0.0)),
         )  # fmt: skip
 
     def _refuse(

@@ -1,8 +1,8 @@
 """Binary frames of the page: shapes of curves and places of points, as the browser takes them.
 
-Little endian, each section begins on 8 bytes. The header has 40: u8 version, u8 kind, u16 flags;
+Little endian, each section begins on 8 bytes. The header has 48: u8 version, u8 kind, u16 flags;
 u32 gesture, sequence, state, curves c, knots k, points p; f32 milliseconds, change of volume (m3),
-change of LCB (m). Then come ids u32[c], counts u32[c], knots f64[3k], leave f32[3k],
+change of LCB (m), movement normal to the hull (m), u32 0. Then come ids u32[c], counts u32[c], knots f64[3k], leave f32[3k],
 arrive f32[3k], rows u32[p], places f64[3p]. Knots are double: single ones make combs lie.
 """
 
@@ -22,7 +22,7 @@ __all__ = ["VERSION", "Frame", "FrameKind", "pack", "unpack"]
 
 VERSION = 1
 
-_HEADER = struct.Struct("<BBHIIIIIIfff")
+_HEADER = struct.Struct("<BBHIIIIIIffffI")
 _STRUCTURAL = 1
 _WHERE = "in a frame of the page"
 
@@ -53,8 +53,9 @@ class Frame:
         What a live frame answers; 0 else.
     structural : bool
         Whether numbers have changed, so that a net must be told first.
-    seconds, volume, lcb : float
-        How long the kernel took, s; about how much volume, m3, and LCB, m, would change.
+    seconds, volume, lcb, normal : float
+        How long the kernel took, s; about how much volume, m3, and LCB, m, would change; how far
+        the point moves that leaves the hull most, m.
     """
 
     kind: FrameKind
@@ -69,6 +70,7 @@ class Frame:
     seconds: float = 0.0
     volume: float = 0.0
     lcb: float = 0.0
+    normal: float = 0.0
 
 
 def pack(frame: Frame) -> bytes:
@@ -77,6 +79,7 @@ def pack(frame: Frame) -> bytes:
     head = _HEADER.pack(
         VERSION, frame.kind, flags, frame.gesture, frame.sequence, frame.state, len(frame.curves),
         len(spline.xyz), len(frame.rows), 1e3 * frame.seconds, frame.volume, frame.lcb,
+        frame.normal, 0,
     )  # fmt: skip
     sections: list[NDArray[np.generic]] = [
         frame.curves.astype("<u4"), np.diff(spline.start).astype("<u4"), spline.xyz.astype("<f8"),
@@ -101,7 +104,7 @@ def unpack(data: bytes) -> Frame:
     if len(data) < _HEADER.size:
         raise BadInputError(f"it has {len(data)} bytes", _WHERE, f"send {_HEADER.size} at least")
     head = _HEADER.unpack_from(data)
-    version, kind, flags, gesture, sequence, state, c, k, p, ms, volume, lcb = head
+    version, kind, flags, gesture, sequence, state, c, k, p, ms, volume, lcb, normal, _ = head
     if version != VERSION:
         raise BadInputError(f"it is of version {version}", _WHERE, "reload the page")
     if kind not in tuple(FrameKind):
@@ -128,7 +131,7 @@ def unpack(data: bytes) -> Frame:
     return Frame(
         FrameKind(kind), state, curves.astype(np.int64), spline, rows.astype(np.int64),
         points.reshape(-1, 3).astype(np.float64), gesture, sequence, bool(flags & _STRUCTURAL),
-        1e-3 * ms, volume, lcb,
+        1e-3 * ms, volume, lcb, normal,
     )  # fmt: skip
 
 

@@ -59,7 +59,7 @@ export function makeBar(page) {
     };
     tabs.append(button);
   }
-  element.append(title, dims, search, tools, tabs);
+  element.append(title, dims, tools, search, tabs);
   const dialog = document.createElement("dialog");
   dialog.className = "sheet";
   dialog.setAttribute("aria-label", "Keys");
@@ -70,6 +70,7 @@ export function makeBar(page) {
     name(ship, lines, points) {
       title.textContent = ship.name;
       dims.textContent = `Lpp ${ship.length.toFixed(2)} · B ${ship.breadth.toFixed(2)} · T ${ship.draught.toFixed(2)} · D ${ship.depth.toFixed(2)} m · ${lines} lines · ${points} points`;
+      dims.title = dims.textContent;
     },
     render() {
       for (const [id, button] of buttons) {

@@ -1,6 +1,8 @@
 // One gesture: a point is taken hold of, asked to be elsewhere, and let go. One `to` is in flight
 // at a time, and the newest wish replaces the one that waits.
 
+import {Predictor} from "./predict.js";
+
 /** @typedef {import("./store.js").Store} Store */
 /** @typedef {import("./store.js").Held} Held */
 /** @typedef {import("./wire.js").Frame} Frame */
@@ -21,14 +23,17 @@ export class Hand {
     this.wish = null;
     /** @type {Wish | null} */
     this.last = null;
-    /** @type {{gesture: number, row: number} | null} */
+    /** @type {{gesture: number, row: number, seq: number} | null} */
     this.committing = null;
     /** @type {(() => void) | null} */
     this.onGrip = null;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
-    /** Times of each step, for who measures. @type {Map<number, number>} */
+    /** What each step in flight asked for, and when. @type {Map<number, {amount: number | null, time: number}>} */
     this.asked = new Map();
+    this.predictor = new Predictor();
+    /** Pixels for a metre, of the view that is nearest. */
+    this.scale = () => 1;
   }
 
   get free() { return this.store.held === null && this.committing === null && this.store.connection === "open"; }
@@ -41,6 +46,7 @@ export class Hand {
     this.gripped = false;
     this.wish = this.last = null;
     this.inFlight = 0;
+    this.predictor.reset();
     const place = [...start], free = this.store.net?.points.get(row)?.free ?? "";
     this.store.held = {row, how, place, start: place, free, normal: null, radius: null, way: null, amount: null, held: false, refused: false, waiting: false};
     this.store.refusal = null;
@@ -57,6 +63,7 @@ export class Hand {
     this.gripped = false;
     this.inFlight = 0;
     held.radius = radius;
+    this.predictor.reset();
     this.wish = this.last;
     this.send({t: "begin", gesture: this.gesture, row: held.row, how: "pull", radius});
     this.store.changed("overlay", "panel");
@@ -86,17 +93,26 @@ export class Hand {
     if (this.store.held) this.store.held.held = true;
     this.wish = this.last = wish;
     this.#pump();
+    this.#foresee();
     this.store.changed("overlay", "panel");
   }
 
   #pump() {
     if (this.inFlight || !this.wish || !this.gripped) return;
     this.inFlight = ++this.seq;
-    this.asked.set(this.seq, performance.now());
+    this.asked.set(this.seq, {amount: this.store.held?.amount ?? null, time: performance.now()});
     this.send({t: "to", gesture: this.gesture, seq: this.seq, ...this.wish});
     this.wish = null;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.#late(true), SLOW);
+  }
+
+  /** Draws what will follow, where that is known well enough; else the last true picture stays. */
+  #foresee() {
+    const {held, overlay, curves, places} = this.store, truth = this.predictor.truth;
+    if (!held || held.amount === null || !truth || !overlay || (held.how === "move" && held.free.length !== 1)) return;
+    const frame = held.amount === truth.amount ? null : this.predictor.at(held.amount, this.scale(), curves, places);
+    this.store.overlay = frame ? {frame, amount: held.amount, predicted: true} : {frame: truth.frame, amount: truth.amount, predicted: false};
   }
 
   /** @param {boolean} late */
@@ -114,8 +130,8 @@ export class Hand {
     if (!held) return;
     if (!held.held || !this.last || !held.amount) return this.cancel();
     const name = this.store.net?.points.get(held.row)?.name ?? "a point", far = (1e3 * held.amount).toFixed(1);
-    this.committing = {gesture: this.gesture, row: held.row};
-    this.send({t: "commit", gesture: this.gesture, seq: ++this.seq, ...this.last, name: `${held.how} ${name} by ${far} mm`});
+    this.committing = {gesture: this.gesture, row: held.row, seq: ++this.seq};
+    this.send({t: "commit", gesture: this.gesture, seq: this.seq, ...this.last, name: `${held.how} ${name} by ${far} mm`});
     this.#let(false);
   }
 
@@ -177,7 +193,10 @@ export class Hand {
     held.refused = false;
     this.store.refusal = null;
     this.#late(false);
-    this.store.overlay = {frame, amount: held.amount, predicted: false};
+    const amount = this.asked.get(frame.seq)?.amount ?? null;
+    if (amount !== null) this.predictor.learn(frame, amount, this.store.curves, this.store.places);
+    this.store.overlay = {frame, amount, predicted: false};
+    this.#foresee();
     this.#pump();
     this.store.changed("overlay", "panel");
     return true;

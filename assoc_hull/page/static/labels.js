@@ -7,7 +7,7 @@ import {pathsOf} from "./hit.js";
 /** @typedef {import("./net.js").Line} Line */
 
 const LETTERS = "11px system-ui, sans-serif", HIGH = 12;
-const COLUMNS = 48, LEAST_GAP = 7; // px
+const COLUMNS = 48, LEAST_GAP = 5; // px
 
 class Places {
   /** @param {CanvasRenderingContext2D} g @param {View} view @param {Record<string, string>} ink */
@@ -84,21 +84,23 @@ function stationsAbove(view, places, ink) {
     const sides = line.family === "sections" ? view.sides(line) : null, c = curves.get(line.curves[line.curves.length - 1] ?? -1);
     if (!sides || !c) continue;
     const first = c.xyz[2] > c.xyz[3 * c.n - 1] ? 0 : 3 * (c.n - 1);
-    for (const side of sides) found.push({name: short(line.name), at: view.at(c.xyz[first], c.xyz[first + 1], c.xyz[first + 2], side)});
+    for (const side of sides) found.push({full: line.name, name: short(line.name), at: view.at(c.xyz[first], c.xyz[first + 1], c.xyz[first + 2], side)});
   }
   // Whole stations first, so that halves give way.
   found.sort((p, q) => Number(!/^\d+$/.test(p.name)) - Number(!/^\d+$/.test(q.name)));
-  for (const {name, at: [x, y]} of found) {
-    if (!places.put(name, x, Math.max(y - 9, 28), "center", ink.sections)) places.put(name, x, Math.max(y - 21, 28), "center", ink.sections);
+  const written = new Set();
+  for (const {full, name, at: [x, y]} of found) {
+    if ([9, 21].some((above) => places.put(name, x, Math.max(y - above, 28), "center", ink.sections))) written.add(full);
   }
+  along(view, places, ink, written);
 }
 
 /**
  * Labels on the curves of the view's own family, each where its neighbours are farthest away; none
  * where they are so near that one could not tell whose it is.
- * @param {View} view @param {Places} places @param {Record<string, string>} ink
+ * @param {View} view @param {Places} places @param {Record<string, string>} ink @param {Set<string>} [written]
  */
-function along(view, places, ink) {
+function along(view, places, ink, written = new Set()) {
   const {net} = view.store, paths = pathsOf(view);
   if (!net) return;
   /** @type {{name: string, colour: string, x: number, y: number, gap: number}[]} */
@@ -112,7 +114,6 @@ function along(view, places, ink) {
       if (line && line.family !== "boundary" && gap > LEAST_GAP) spots.push({name: line.name, colour: ink[line.family] || ink.ink, x, y, gap: Math.min(gap, 40)});
     });
   }
-  const written = new Set();
   for (const {name, colour, x, y} of spots.sort((p, q) => q.gap - p.gap)) {
     if (!written.has(name) && places.put(short(name), x, y, "center", colour, true)) written.add(name);
   }

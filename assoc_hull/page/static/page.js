@@ -53,6 +53,7 @@ export class Page {
     this.views.half.partner = this.views.profile;
     this.hand = new Hand(this.store, (message) => this.link.send(message));
     this.pointers = Object.fromEntries(KINDS.map((kind) => [kind, new Pointers(this.views[kind], this.hand)]));
+    this.hand.scale = () => Math.max(...["body", "profile", "half"].map((kind) => this.views[kind].shown ? Math.max(this.views[kind].axis.s, this.views[kind].sy) : 0));
     this.hand.onGrip = () => Object.values(this.pointers).forEach((each) => each.track());
     for (const kind of KINDS) this.views[kind].upper.addEventListener("focus", () => this.#look(kind));
     this.active = /** @type {Kind} */ ("body");
@@ -131,9 +132,9 @@ export class Page {
       if (first) this.fit();
     } else if (frame.kind === LIVE) {
       const asked = hand.asked.get(frame.seq);
-      hand.asked.delete(frame.seq);
-      if (asked !== undefined) this.stats.steps.push(performance.now() - asked);
+      if (asked !== undefined) this.stats.steps.push(performance.now() - asked.time);
       if (hand.live(frame)) this.speaker.listen(store);
+      hand.asked.delete(frame.seq);
     } else store.publish(frame);
   }
 

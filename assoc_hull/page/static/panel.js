@@ -19,7 +19,7 @@ export class Panel {
   /** @param {Page} page @param {HTMLElement} element */
   constructor(page, element) {
     this.page = page;
-    this.parts = Object.fromEntries(["Point", "Curve", "Edit", "Signed as"].map((title) => {
+    this.parts = Object.fromEntries(["Point", "Curve", "Edit", "Pull", "Signed as"].map((title) => {
       const box = document.createElement("details"), head = document.createElement("summary"), heading = document.createElement("h2"), body = document.createElement("div");
       box.open = true;
       heading.textContent = title;
@@ -33,9 +33,30 @@ export class Panel {
     this.shownRow = /** @type {number | null | undefined} */ (undefined);
     this.shownState = -1;
     this.#signature();
+    this.radii = [0, 1].map((i) => this.#radius(i));
+    this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
+  }
+
+  /** @param {number} i */
+  #radius(i) {
+    const field = document.createElement("input"), {store} = this.page;
+    field.inputMode = "decimal";
+    field.setAttribute("aria-label", i ? "radius of a pull around the girth, m" : "radius of a pull along the length, m");
+    field.onchange = () => {
+      const value = Number(field.value.replace(",", ".").trim() || NaN), radius = [...(store.tools.radius ?? [1, 1])];
+      if (!(value > 0 && value < 1000)) this.page.say("A radius is a number of metres above 0, such as 12.5");
+      else radius[i] = value;
+      store.tools.radius = radius;
+      store.changed("panel");
+    };
+    return field;
   }
 
   render() {
+    const radius = this.page.store.tools.radius;
+    this.radii.forEach((field, i) => {
+      if (radius && field !== document.activeElement) field.value = radius[i].toFixed(1);
+    });
     this.#point();
     this.#curve();
     this.#edit();
@@ -158,7 +179,7 @@ export class Panel {
       return this.#table(box, [
         ["asked", held?.amount == null ? "–" : millimetres(held.amount)],
         ["follow", `${frame.curves.size} curves, ${frame.places.size} points`],
-        ["farthest", `${millimetres(farthest(frame, store.curves))}, normal`],
+        ["farthest", `${millimetres(frame.normal)} off the hull`],
         ["volume", `about ${signed(frame.volume, 2, "m³")}`],
         ["LCB", `about ${signed(frame.lcb, 4, "m")}`],
         ["kernel", `${frame.ms.toFixed(1)} ms`],
@@ -168,7 +189,7 @@ export class Panel {
     this.#table(box, [
       ["last", last.name],
       ["follow", `${last.relofted} curves`],
-      ["farthest", last.normal === null ? "–" : `${millimetres(last.normal)}, normal`],
+      ["farthest", last.normal === null ? "–" : `${millimetres(last.normal)} off the hull`],
       ["inflections", last.inflections ? `${last.inflections} new` : "none new"],
       ...last.notes.slice(0, 4).map((/** @type {string} */ note) => /** @type {[string, string]} */ (["note", note])),
     ]);

@@ -85,6 +85,8 @@ export class Store {
     const curve = [...net.curves].find(([, {name}]) => name === kept.curve)?.[0] ?? null;
     this.selection = {row, curve};
     this.hover = {row: null, curve: null};
+    // A pull that is to be fair is wide: an eighth of the length, and a third of the breadth.
+    this.tools.radius ??= [0.125 * net.particulars.length, 0.35 * net.particulars.breadth].map((value) => Math.round(10 * value) / 10);
     this.changed("hull", "overlay", "panel");
   }
 

@@ -11,6 +11,7 @@
  * @property {number} ms
  * @property {number} volume
  * @property {number} lcb
+ * @property {number} normal how far the point moves that leaves the hull most, m
  * @property {Map<number, Curve>} curves
  * @property {Map<number, Float64Array>} places
  * @property {number} bytes
@@ -18,7 +19,7 @@
 
 export const VERSION = 1;
 export const NET = 1, LIVE = 2, PUBLISHED = 3;
-const HEADER = 40;
+const HEADER = 48;
 
 /** @param {ArrayBuffer} buffer @returns {Frame} */
 export function parseFrame(buffer) {
@@ -54,6 +55,6 @@ export function parseFrame(buffer) {
   for (let i = 0; i < points; i++) at3.set(rows[i], places.subarray(3 * i, 3 * i + 3));
   return {
     kind: view.getUint8(1), structural: (view.getUint16(2, true) & 1) === 1, gesture: word(4), seq: word(8),
-    state: word(12), ms: real(28), volume: real(32), lcb: real(36), curves, places: at3, bytes: buffer.byteLength,
+    state: word(12), ms: real(28), volume: real(32), lcb: real(36), normal: real(40), curves, places: at3, bytes: buffer.byteLength,
   };
 }
