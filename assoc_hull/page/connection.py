@@ -91,8 +91,11 @@ class Connection:
                     raise BadInputError("hello came twice", "in a message of the page", "leave it")
             except BadInputError as error:
                 foreign += 1
-                self.tell(json.dumps({"t": "problem", "id": 0, "gesture": 0, "text": str(error)}))
+                told = {"t": "problem", "id": 0, "gesture": 0, "text": str(error)}
+                self._outgoing.put_nowait(json.dumps(told))
                 if foreign >= _FOREIGN:
+                    with contextlib.suppress(TimeoutError):
+                        await asyncio.wait_for(self._outgoing.join(), _PATIENCE)
                     await self._close("too many messages that are none", _TOO_MANY)
                     return
             else:
@@ -106,3 +109,4 @@ class Connection:
                     await self._socket.send_text(message)
                 else:
                     await self._socket.send_bytes(message)
+                self._outgoing.task_done()

@@ -72,7 +72,7 @@ class PageServer:
     Attributes
     ----------
     address : str
-        What to open in a browser; the part behind # lets in who knows it.
+        What to open in a browser, from entering on; the part behind # lets in who knows it.
 
     Parameters
     ----------
@@ -108,10 +108,8 @@ class PageServer:
             hull = open_hull(hull)
         self.hull = instance(hull, Hull, "hull", "in serve")
         self.author = _user() if author is None else text(author, "author", "in serve")
-        self._token = secrets.token_urlsafe(32)
-        self._socket = _listen(port)
-        self._port = int(self._socket.getsockname()[1])
-        self.address = f"http://{_HOST}:{self._port}/#t={self._token}&author={_quoted(self.author)}"
+        self.address = ""
+        self._port = port
         self._session: Session | None = None
         self._server: uvicorn.Server | None = None
         self._thread: threading.Thread | None = None
@@ -121,9 +119,12 @@ class PageServer:
 
         from assoc_hull.page.app import Visitors, make_app
 
+        self._socket = _listen(self._port)
+        port, token = int(self._socket.getsockname()[1]), secrets.token_urlsafe(32)
+        self.address = f"http://{_HOST}:{port}/#t={token}&author={_quoted(self.author)}"
         self._visitors = Visitors()
         self._session = Session(self.hull)
-        app = make_app(self._session, self._token, self._port, self._visitors)
+        app = make_app(self._session, token, port, self._visitors)
         config = uvicorn.Config(
             app, ws="websockets-sansio", ws_per_message_deflate=False, ws_max_size=_LONGEST,
             log_level="error", access_log=False, lifespan="off", timeout_graceful_shutdown=1,
@@ -170,6 +171,7 @@ def _listen(port: int) -> socket.socket:
     found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         found.bind((_HOST, port))
+        found.listen()
     except OSError as error:
         found.close()
         what = f"the port {port} cannot be had ({error.strerror})"

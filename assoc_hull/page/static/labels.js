@@ -92,7 +92,8 @@ function stationsAbove(view, places, ink) {
   for (const {full, name, at: [x, y]} of found) {
     if ([9, 21].some((above) => places.put(name, x, Math.max(y - above, 28), "center", ink.sections))) written.add(full);
   }
-  along(view, places, ink, written);
+  // Where most have no room above, as those that end at one transom, they are named along the lines.
+  if (3 * written.size < found.length) along(view, places, ink, written);
 }
 
 /**
