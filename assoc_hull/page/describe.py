@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from assoc_hull.edit.displacement_field import on_flat, on_profile
 from assoc_hull.edit.document import Document
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import FAMILIES, Role, Sort
@@ -20,6 +21,7 @@ def describe_net(state: HullState) -> dict[str, Any]:
 
     Points come in the order of their rows. ``role`` is a `Role` and -1 of a point that is no
     crossing; ``driver`` is the curve that computes it, or -1; ``free`` names its coordinates.
+    ``held`` is 1 on a flat, 2 on the profile: a pull there is refused.
     """
     book, table = AddressBook(state), state.rows
     rows = state.live("rows")
@@ -42,6 +44,7 @@ def describe_net(state: HullState) -> dict[str, Any]:
             "role": role.tolist(),
             "driver": np.where(crossing, table.driver[rows], -1).tolist(),
             "kind": table.kind[rows].tolist(),
+            "held": np.where(on_flat(state), 1, np.where(on_profile(state), 2, 0))[rows].tolist(),
             "free": [
                 "" if fixed else "".join(free_axes(state, row))
                 for row, fixed in zip(numbers, computed.tolist(), strict=True)

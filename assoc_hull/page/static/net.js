@@ -1,7 +1,7 @@
 // What the server tells of a net: lines, curves, points, and who lies on whom; never shapes.
 
 /** @typedef {{id: number, name: string, family: string, axis: number | null, offset: number | null, boundary: number, curves: number[], names: string[]}} Line */
-/** @typedef {{row: number, name: string, label: string, a: number, b: number, sort: number, role: number, driver: number, kind: number[], free: string}} Point */
+/** @typedef {{row: number, name: string, label: string, a: number, b: number, sort: number, role: number, driver: number, kind: number[], free: string, held: number}} Point */
 /** @typedef {{name: string, length: number, breadth: number, depth: number, draught: number}} Particulars */
 
 export const CROSSING = 0, PLACED = 1, ADOPTED = 2;
@@ -24,7 +24,7 @@ export class Net {
     const table = message.points;
     table.row.forEach((/** @type {number} */ row, /** @type {number} */ i) => this.points.set(row, {
       row, name: table.name[i], label: table.label[i], a: table.a[i], b: table.b[i], sort: table.sort[i],
-      role: table.role[i], driver: table.driver[i], kind: table.kind[i], free: table.free[i],
+      role: table.role[i], driver: table.driver[i], kind: table.kind[i], free: table.free[i], held: table.held[i],
     }));
     /** @type {Map<number, number[]>} */
     this.rowsOf = new Map();
@@ -84,6 +84,8 @@ export class Net {
 
   /** What the hand can do with it. @param {Point} point */
   wayWords(point) {
+    if (point.free && point.held === 1) return `on a flat: it moves along ${[...point.free].join(", ")}, and is not pulled`;
+    if (point.free && point.held === 2) return `on the profile: it moves along ${[...point.free].join(", ")}, and is not pulled`;
     if (point.free) return `move along ${[...point.free].join(", ")}, or pull the hull`;
     return "computed: pull the hull here";
   }
