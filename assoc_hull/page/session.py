@@ -333,7 +333,10 @@ class Session:
             self._tell_net(self._clients)
             return
         curves = changed.curves[state.curves.alive[changed.curves]]
-        rows = changed.rows[state.rows.alive[changed.rows]]
+        # Watched points follow their curves, and are no part of what an edit tells of itself.
+        rows = state.live("rows")
+        follows = np.isin(state.rows.curve[rows], curves).any(axis=1)
+        rows = rows[follows | np.isin(rows, changed.rows)]
         spline = joined([state.spline(curve) for curve in curves.tolist()])
         frame = Frame(FrameKind.PUBLISHED, state.number, curves, spline, rows, state.rows.xyz[rows])
         self._tell_all(self._clients, pack(frame))

@@ -2,7 +2,7 @@
 
 /** @typedef {import("./page.js").Page} Page */
 
-const WIDE = 340;
+const WIDE = 340, REASONS = 3;
 
 /** @param {Page} page */
 export function placeBubble(page) {
@@ -14,7 +14,8 @@ export function placeBubble(page) {
     bubble.className = "bubble";
   }
   if (bubble.parentElement !== view.element) view.element.append(bubble);
-  if (bubble.textContent !== refusal.text) bubble.textContent = refusal.text;
+  const words = shortened(refusal.text);
+  if (bubble.textContent !== words) bubble.textContent = words;
   const [x, y] = refusal.place && view.kind !== "wire" ? view.atPlace(refusal.place) : [view.width / 2, 40];
   const wide = Math.min(WIDE, view.width - 16);
   bubble.style.maxWidth = `${wide}px`;
@@ -23,4 +24,10 @@ export function placeBubble(page) {
   bubble.style.right = right ? "auto" : `${Math.min(Math.max(view.width - x + 18, 8), Math.max(view.width - wide - 8, 8))}px`;
   bubble.style.top = below ? `${Math.min(Math.max(y + 18, 28), view.height - 60)}px` : "auto";
   bubble.style.bottom = below ? "auto" : `${Math.min(Math.max(view.height - y + 18, 8), view.height - 60)}px`;
+}
+
+/** A pull that goes much too far folds every line: the first reasons tell enough. @param {string} text */
+function shortened(text) {
+  const reasons = text.split("\n"), more = reasons.length - REASONS;
+  return more > 0 ? [...reasons.slice(0, REASONS), `and ${more} more ${more === 1 ? "reason" : "reasons"}`].join("\n") : text;
 }

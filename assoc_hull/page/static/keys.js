@@ -17,7 +17,11 @@ export class Keys {
     this.timer = undefined;
     this.burst = false;
     this.sum = [0, 0, 0];
-    page.root.addEventListener("keydown", (event) => this.#down(event));
+    // Also where a button that had the focus is no longer there to have it.
+    page.root.ownerDocument.addEventListener("keydown", (event) => {
+      const at = event.target, own = at instanceof Node && page.root.contains(at);
+      if (own || at === page.root.ownerDocument.body) this.#down(event);
+    });
   }
 
   /** @param {KeyboardEvent} event */
