@@ -54,22 +54,30 @@ class Connection:
 
     async def _first(self) -> Hello | None:
         """Wait for the first message, and let nobody in without the token."""
+        found = await self._opening()
+        if isinstance(found, str):
+            await self._close(found)
+            return None
+        return found
+
+    async def _opening(self) -> Hello | str | None:
+        """Give the first message, or why nobody is let in with it; None where the page has gone."""
         try:
             async with asyncio.timeout(_PATIENCE):
                 text = await self._text()
-            hello = None if text is None else parse(text)
+            if text is None:
+                return None
+            hello = parse(text)
         except TimeoutError:
-            return await self._close("no first message came")
+            return "no first message came"
         except BadInputError as error:
-            return await self._close(str(error))
-        if text is None:
-            return None
+            return str(error)
         if not isinstance(hello, Hello):
-            return await self._close("the first message is no hello")
+            return "the first message is no hello"
         if not hmac.compare_digest(hello.token.encode(), self._token.encode()):
-            return await self._close("the address is that of another server; open the new one")
+            return "the address is that of another server; open the new one"
         if hello.version != VERSION:
-            return await self._close("the page is of another version; reload it")
+            return "the page is of another version; reload it"
         return hello
 
     async def _close(self, reason: str, code: int = _POLICY) -> None:

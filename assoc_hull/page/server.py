@@ -97,7 +97,7 @@ class PageServer:
     ) -> None:
         try:
             import starlette  # noqa: F401
-            import uvicorn
+            import uvicorn  # noqa: F401
             import websockets  # noqa: F401
         except ImportError as error:
             raise MissingExtraError(error.name or "starlette", "page") from None

@@ -13,7 +13,7 @@ import logging
 import threading
 from collections import deque
 from collections.abc import Callable, Iterator
-from typing import Any, Protocol, cast
+from typing import Any, ClassVar, Protocol, cast
 
 import attrs
 import numpy as np
@@ -357,7 +357,7 @@ class Session:
             client.tell(frame)
             _send(client, describe_state(self.hull.document, client.author))
 
-    _acts: dict[type[Any], Callable[[Session, Client, Any], None]] = {
+    _acts: ClassVar[dict[type[Any], Callable[[Session, Client, Any], None]]] = {
         Hello: _hello, Sign: _sign, Begin: _begin, To: _to, Commit: _commit, Cancel: _cancel,
         Apply: _apply, Undo: _undo, Redo: _redo, Check: _check,
     }  # fmt: skip

@@ -2,8 +2,9 @@
 
 Little endian, each section begins on 8 bytes. The header has 48: u8 version, u8 kind, u16 flags;
 u32 gesture, sequence, state, curves c, knots k, points p; f32 milliseconds, change of volume (m3),
-change of LCB (m), movement normal to the hull (m), u32 0. Then come ids u32[c], counts u32[c], knots f64[3k], leave f32[3k],
-arrive f32[3k], rows u32[p], places f64[3p]. Knots are double: single ones make combs lie.
+change of LCB (m), movement normal to the hull (m), u32 0. Then come ids u32[c], counts u32[c],
+knots f64[3k], leave f32[3k], arrive f32[3k], rows u32[p], places f64[3p]. Knots are double: single
+ones make combs lie.
 """
 
 from __future__ import annotations
@@ -143,5 +144,5 @@ def _spline(
     total = np.concatenate([[0.0], np.cumsum(step)])[: len(xyz)]
     first = np.repeat(start[:-1], np.diff(start))
     knot: FloatArray = total - total[first] if len(xyz) else np.zeros(0)
-    slopes = [each.reshape(-1, 3).astype(np.float64) for each in (leave, arrive)]
-    return SplineBatch(start, knot, xyz, *slopes)
+    ahead, behind = (each.reshape(-1, 3).astype(np.float64) for each in (leave, arrive))
+    return SplineBatch(start, knot, xyz, ahead, behind)

@@ -145,7 +145,10 @@ def open_page(browser: Browser) -> Iterator[Open]:
         page.set_default_timeout(30_000)
         page.on("console", lambda message: said.append(message.text))
         page.on("pageerror", lambda error: said.append(str(error)))
-        page.on("request", lambda asked: said.append(asked.url) if not asked.url.startswith(at) else None)
+        page.on(
+            "request",
+            lambda asked: said.append(asked.url) if not asked.url.startswith(at) else None,
+        )
         page.goto(server.address)
         page.wait_for_selector(READY)
         return page

@@ -16,13 +16,15 @@ def test_a_soft_pull_leaves_the_page_and_the_hull_alike(open_page: Open, hull: a
     for step in range(200):
         hand.page.mouse.move(x + 4.0 * math.sin(0.1 * step), y)
     hand.to(x + 6.0, y)
-    live = hand.ask("p => [p.store.overlay.frame.curves.size, p.store.held.amount, p.store.overlay.predicted]")
+    live = hand.ask(
+        "p => [p.store.overlay.frame.curves.size, p.store.held.amount, p.store.overlay.predicted]"
+    )
     assert live[0] > 20
-    assert hull.history == ()
+    assert not hull.history
     hand.release()
-    (step,) = hull.history
-    assert step.name == f"pull {POINT} by {1e3 * live[1]:.1f} mm"
-    assert step.author == "anna"
+    (made,) = hull.history
+    assert made.name == f"pull {POINT} by {1e3 * live[1]:.1f} mm"
+    assert made.author == "anna"
     assert hand.shows_what_is_published()
 
 
@@ -33,7 +35,8 @@ def test_a_live_picture_is_that_of_the_kernel(open_page: Open, hull: ah.Hull) ->
     x, y = hand.press(POINT)
     hand.to(x + 7.0, y)
     amount, curves = hand.ask(
-        "p => [p.store.held.amount, [...p.store.overlay.frame.curves].map(([id, c]) => [id, [...c.xyz]])]"
+        "p => [p.store.held.amount, [...p.store.overlay.frame.curves].map(([id, c]) => [id,"
+        " [...c.xyz]])]"
     )
     radius = hand.ask("p => p.store.tools.radius")
     hand.page.keyboard.press("Escape")
@@ -51,18 +54,18 @@ def test_a_point_moves_alone_along_its_freedom(open_page: Open, hull: ah.Hull) -
     """With Ctrl, or with the tool; where the hand goes up and down, it stays on its water line."""
     hand = open_page(hull)
     hand.near(POINT)
-    start = hull[POINT].position
+    start = hull.points[POINT].position
     hand.page.keyboard.down("Control")
     x, y = hand.press(POINT)
     hand.page.keyboard.up("Control")
     hand.to(x + 4.0, y + 9.0)
     hand.release()
-    moved = hull[POINT].position - start
+    moved = hull.points[POINT].position - start
     assert moved[0] == moved[2] == 0.0
     assert abs(moved[1] - 0.010) < 1e-6
     hand.page.keyboard.press("p")
     hand.pull(POINT, -4.0)
-    assert abs(hull[POINT].position[1] - start[1]) < 1e-6
+    assert abs(hull.points[POINT].position[1] - start[1]) < 1e-6
     assert [step.name.split()[0] for step in hull.history] == ["move", "move"]
     assert hand.shows_what_is_published()
 
@@ -113,8 +116,14 @@ def test_a_refusal_stands_at_its_place(open_page: Open, hull: ah.Hull) -> None:
     amount = hand.ask("p => p.store.held.amount")
     box = hand.page.locator(".bubble").bounding_box()
     assert box is not None
-    place = hand.ask("p => { const v = p.views.body, b = v.upper.getBoundingClientRect(), [x, y] = v.atPlace(p.store.held.place); return [b.left + x, b.top + y]; }")
-    assert not (box["x"] <= place[0] <= box["x"] + box["width"] and box["y"] <= place[1] <= box["y"] + box["height"])
+    place = hand.ask(
+        "p => { const v = p.views.body, b = v.upper.getBoundingClientRect(), [x, y] ="
+        " v.atPlace(p.store.held.place); return [b.left + x, b.top + y]; }"
+    )
+    assert not (
+        box["x"] <= place[0] <= box["x"] + box["width"]
+        and box["y"] <= place[1] <= box["y"] + box["height"]
+    )
     assert abs(box["y"] - place[1]) < 200.0
     with hull.drag(POINT, radius=tuple(hand.ask("p => p.store.tools.radius"))) as drag:
         refused = drag.to(d=amount).refused
@@ -139,7 +148,8 @@ def test_a_hover_says_what_a_point_is_before_it_is_pressed(open_page: Open, hull
     }  # fmt: skip
     for words, fits in wanted.items():
         name = hand.ask(
-            f"p => {{ const v = p.views.body, fits = {fits}, at = r => v.atPlace(p.store.places.get(r));"
+            f"p => {{ const v = p.views.body, fits = {fits}, at = r =>"
+            f" v.atPlace(p.store.places.get(r));"
             " const alone = row => v.rows().every(r => { const [a, b] = at(r), [c, d] = at(row);"
             " return r === row || Math.hypot(a - c, b - d) > 2; });"
             " for (const row of v.rows()) if (fits(p.store.net.points.get(row)) && alone(row))"
@@ -160,7 +170,8 @@ def test_a_point_on_a_flat_refuses_a_pull_with_its_address(open_page: Open, hull
     hand, before = open_page(hull), hull.fingerprint
     name = hand.ask(
         "p => { for (const row of p.views.body.rows()) { const q = p.store.net.points.get(row);"
-        " if (q.held === 1 && q.free === 'y') return q.name; } for (const row of p.views.body.rows()) {"
+        " if (q.held === 1 && q.free === 'y') return q.name; } for (const row of"
+        " p.views.body.rows()) {"
         " const q = p.store.net.points.get(row); if (q.held === 1 && q.free) return q.name; } }"
     )
     hand.near(name, scale=3000.0)
@@ -205,7 +216,7 @@ def test_shift_locks_an_axis(open_page: Open, hull: ah.Hull) -> None:
         " && p.views.body.rows().includes(q.row)) return q.name; return null; }"
     )
     hand.near(name, scale=2000.0)
-    start = hull[name].position
+    start = hull.points[name].position
     hand.page.get_by_role("button", name="Move").first.click()
     hand.page.keyboard.down("Shift")
     x, y = hand.press(name)
@@ -287,7 +298,7 @@ def test_what_is_typed_is_one_step_and_nonsense_is_none(open_page: Open, hull: a
     field.fill("6,893")
     field.press("Enter")
     hand.until("p => p.store.history.edits === 1")
-    assert hull[POINT].position[1] == 6.893
+    assert hull.points[POINT].position[1] == 6.893
     assert hand.shows_what_is_published()
     field.fill("wide")
     field.press("Enter")
@@ -302,8 +313,10 @@ def test_the_dtc_is_pulled_as_well(open_page: Open, dtc: ah.Hull) -> None:
     """A hull from a mesh, with knuckles and stations that no number names."""
     hand = open_page(dtc)
     name = hand.ask(
-        "p => { const v = p.views.body; for (const row of v.rows()) { const q = p.store.net.points.get(row),"
-        " at = p.store.places.get(row); if (q.free === 'y' && q.role === 0 && at[0] > 280 && at[0] < 310"
+        "p => { const v = p.views.body; for (const row of v.rows()) { const q ="
+        " p.store.net.points.get(row),"
+        " at = p.store.places.get(row); if (q.free === 'y' && q.role === 0 && at[0] > 280 &&"
+        " at[0] < 310"
         " && at[2] > 10 && at[2] < 20) return q.name; } }"
     )
     try:

@@ -10,7 +10,8 @@ from tests.browser.conftest import READY, Hand, Open
 POINT = "WL 0.625 x ST 16"
 VIEWS = ("body", "profile", "half", "wire")
 INK = (
-    "(p, kind, which) => { const c = p.views[kind][which], t = new OffscreenCanvas(c.width, c.height);"
+    "(p, kind, which) => { const c = p.views[kind][which], t = new OffscreenCanvas(c.width,"
+    " c.height);"
     " const g = t.getContext('2d', {willReadFrequently: true}); g.drawImage(c, 0, 0);"
     " const d = g.getImageData(0, 0, c.width, c.height).data; let n = 0;"
     " for (let i = 3; i < d.length; i += 4) if (d[i] > 40) n++; return n; }"
@@ -18,7 +19,9 @@ INK = (
 """How many pixels of a canvas are drawn."""
 
 
-def test_the_first_picture_has_all_of_the_hull_in_four_views(open_page: Open, hull: ah.Hull) -> None:
+def test_the_first_picture_has_all_of_the_hull_in_four_views(
+    open_page: Open, hull: ah.Hull
+) -> None:
     """Drawn without a hand; the whole of the hull lies within each view."""
     hand = open_page(hull)
     assert hand.page.title() == "Series 60 CB 0.70 – fairing page"
@@ -26,8 +29,10 @@ def test_the_first_picture_has_all_of_the_hull_in_four_views(open_page: Open, hu
     for kind in VIEWS:
         assert hand.ask(INK, kind, "lower") > 3000
         out = hand.ask(
-            "(p, kind) => { const v = p.views[kind]; let n = 0; for (const c of p.store.curves.values())"
-            " for (let i = 0; i < 3 * c.n; i += 3) for (const s of kind === 'wire' ? [1, -1] : [v.side(c.xyz[i])]) {"
+            "(p, kind) => { const v = p.views[kind]; let n = 0; for (const c of"
+            " p.store.curves.values())"
+            " for (let i = 0; i < 3 * c.n; i += 3) for (const s of kind === 'wire' ? [1, -1] :"
+            " [v.side(c.xyz[i])]) {"
             " const [x, y] = v.at(c.xyz[i], c.xyz[i+1], c.xyz[i+2], s);"
             " if (x < 0 || y < 0 || x > v.width || y > v.height) n++; } return n; }",
             kind,
@@ -37,7 +42,7 @@ def test_the_first_picture_has_all_of_the_hull_in_four_views(open_page: Open, hu
 
 
 def test_the_page_runs_under_its_own_policy(open_page: Open, hull: ah.Hull) -> None:
-    """No inline script, no style, nothing from elsewhere is needed; the token leaves the address."""
+    """Nothing inline, nothing from elsewhere is needed; the token leaves the address."""
     hand = open_page(hull, strict=True)
     assert hand.page.locator(READY).count() == 1
     assert "#" not in hand.page.url
@@ -110,7 +115,9 @@ def test_marks_of_inflection_are_those_of_the_library(
             axis, plane = axes[family]
             normals[at] = np.eye(3)[axis]
             wanted[curve] = plane
-    counts = dict(zip(shapes.curves.tolist(), inflections(shapes.spline, normals)[0].tolist(), strict=True))
+    counts = dict(
+        zip(shapes.curves.tolist(), inflections(shapes.spline, normals)[0].tolist(), strict=True)
+    )
     found = hand.ask(
         "async (p, wanted) => { const {inflections} = await import('/comb.js');"
         " return wanted.map(([id, a, b]) => inflections(p.store.curves.get(id), a, b).length); }",
@@ -199,10 +206,20 @@ def test_dark_is_dark_and_stays(open_page: Open, hull: ah.Hull) -> None:
 def test_every_button_has_a_name_and_every_key_one_effect(open_page: Open, hull: ah.Hull) -> None:
     """The sheet lists all of them; what the browser owns is left to it."""
     hand = open_page(hull)
-    actions = hand.ask("async () => (await import('/actions.js')).ACTIONS.map(({id, words, keys}) => [id, words, keys])")
+    actions = hand.ask(
+        "async () => (await import('/actions.js')).ACTIONS.map(({id, words, keys}) => [id,"
+        " words, keys])"
+    )
     keys = [key for _, _, some in actions for key in some]
     assert len(keys) == len(set(keys))
-    assert not {"Ctrl+t", "Ctrl+w", "Ctrl+n", "Ctrl+l", "Ctrl+r", *(f"Ctrl+{n}" for n in range(10))} & set(keys)
+    assert not {
+        "Ctrl+t",
+        "Ctrl+w",
+        "Ctrl+n",
+        "Ctrl+l",
+        "Ctrl+r",
+        *(f"Ctrl+{n}" for n in range(10)),
+    } & set(keys)
     assert all(words for _, words, _ in actions)
     hand.page.get_by_role("button", name="Keys").click()
     sheet = hand.page.get_by_role("dialog").inner_text()

@@ -19,8 +19,8 @@ from tests.conftest import Shipped
 PORT = 8123
 OWN = [f"127.0.0.1:{PORT}", f"localhost:{PORT}"]
 FOREIGN_HOSTS = [
-    None, "", "127.0.0.1", "localhost", f"127.0.0.1:{PORT + 1}", "127.0.0.1:80", f"127.evil.example:{PORT}",
-    f"evil.example:{PORT}", f"127.0.0.1.evil.example:{PORT}", f"localhost.:{PORT}", f"[::1]:{PORT}",
+    None, "", "127.0.0.1", "localhost", f"127.0.0.1:{PORT + 1}", "127.0.0.1:80",
+    f"127.evil.example:{PORT}", f"evil.example:{PORT}", f"127.0.0.1.evil.example:{PORT}", f"localhost.:{PORT}", f"[::1]:{PORT}",
     f"0.0.0.0:{PORT}", f"127.0.0.1:{PORT}@evil.example", f"LOCALHOST:{PORT}", f" 127.0.0.1:{PORT}",
 ]  # fmt: skip
 FOREIGN_ORIGINS = [
@@ -64,7 +64,9 @@ def test_a_foreign_origin_is_kept_out(origin: str) -> None:
         assert not GUARD.lets_in(kind, OWN[0], origin)
 
 
-def get(app: Any, path: str, *headers: tuple[bytes, bytes], method: str = "GET") -> tuple[int, dict[str, str], bytes]:
+def get(
+    app: Any, path: str, *headers: tuple[bytes, bytes], method: str = "GET"
+) -> tuple[int, dict[str, str], bytes]:
     """Ask an application for a file: status, headers, body."""
     sent = list[MutableMapping[str, Any]]()
 
@@ -75,8 +77,9 @@ def get(app: Any, path: str, *headers: tuple[bytes, bytes], method: str = "GET")
         sent.append(event)
 
     scope = {
-        "type": "http", "asgi": {"version": "3.0"}, "http_version": "1.1", "method": method, "scheme": "http",
-        "path": path, "raw_path": path.encode(), "query_string": b"", "root_path": "", "headers": list(headers),
+        "type": "http", "asgi": {"version": "3.0"}, "http_version": "1.1", "method": method,
+        "scheme": "http", "path": path, "raw_path": path.encode(), "query_string": b"",
+        "root_path": "", "headers": list(headers),
         "client": ("127.0.0.1", 1), "server": ("127.0.0.1", PORT),
     }  # fmt: skip
     asyncio.run(app(scope, receive, send))
@@ -109,11 +112,16 @@ def test_files_come_with_headers_that_shut_all_else_out(app: Any, name: str) -> 
     assert about["x-content-type-options"] == "nosniff"
     assert about["referrer-policy"] == "no-referrer"
     assert about["cache-control"] == "no-store"
-    assert about["cross-origin-resource-policy"] == about["cross-origin-opener-policy"] == "same-origin"
+    assert (
+        about["cross-origin-resource-policy"]
+        == about["cross-origin-opener-policy"]
+        == "same-origin"
+    )
 
 
 @pytest.mark.parametrize("path", [
-    "/nothing.js", "/../wire.py", "/..%2fwire.py", "/static/page.js", "//etc/passwd", "/__init__.py",
+    "/nothing.js", "/../wire.py", "/..%2fwire.py", "/static/page.js", "//etc/passwd",
+    "/__init__.py",
 ])  # fmt: skip
 def test_there_is_no_way_to_other_files(app: Any, path: str) -> None:
     """Names are those of a fixed list; nothing is joined to a path."""
@@ -203,6 +211,7 @@ def test_two_servers_have_other_tokens(shipped: Shipped) -> None:
     hull: ah.Hull = shipped("wigley")
     with PageServer(hull, author="anna & bert") as one, PageServer(hull) as other:
         tokens = [re.search(r"/#t=([\w-]{43})&", each.address) for each in (one, other)]
-        assert tokens[0] and tokens[1]
+        assert tokens[0]
+        assert tokens[1]
         assert tokens[0][1] != tokens[1][1]
         assert one.address.endswith("&author=anna%20%26%20bert")

@@ -86,7 +86,9 @@ def test_curvature_of_what_was_sent_is_that_of_the_hull(
     data = pack(frame)
     sent, own = unpack(data).spline, frame.spline
     middle = np.repeat(np.arange(own.count), np.diff(own.start) - 1)
-    first = np.concatenate([np.arange(a, b - 1) for a, b in zip(own.start, own.start[1:], strict=False)])
+    first = np.concatenate(
+        [np.arange(a, b - 1) for a, b in zip(own.start, own.start[1:], strict=False)]
+    )
     at = middle, 0.5 * (own.knot[first] + own.knot[first + 1])
     short = own.knot[first + 1] - own.knot[first] < 0.02
     apart = np.abs(curvature(sent, at=at) - curvature(own, at=at))[~short]
