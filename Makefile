@@ -38,7 +38,19 @@ BROWSER ?= $(shell command -v chromium || command -v chromium-browser || command
 test-page: $(VENV)/.page  ## the fairing page in a real browser, on two processes
 	@test -n "$(BROWSER)" || { echo "error: no browser was found: apt-get install chromium," \
 		"or name one: make test-page BROWSER=/path" >&2; exit 2; }
+	@command -v npm >/dev/null || echo "npm is missing: types and accessibility are not checked"
+	if command -v npm >/dev/null; then $(MAKE) --no-print-directory $(NPM)/.installed && \
+		$(NPM)/node_modules/.bin/tsc -p tests/browser/tsconfig.json; fi
 	ASSOC_HULL_BROWSER="$(BROWSER)" $(BIN)/python -m pytest -n 2 tests/browser $(ARGS)
+
+# Nothing of it is shipped: it looks at the types of the page's modules, and at its accessibility.
+NPM := build/npm
+
+$(NPM)/.installed: tests/browser/package-lock.json
+	mkdir -p $(NPM)
+	cp tests/browser/package.json tests/browser/package-lock.json $(NPM)
+	cd $(NPM) && npm ci --silent --no-audit --no-fund
+	@touch $@
 
 lint: $(STAMP)  ## rules of style, formatting, imports and types
 	$(BIN)/python -m ruff check .

@@ -246,6 +246,7 @@ def test_the_keyboard_alone_finds_pulls_and_takes_back(open_page: Open, hull: ah
         keys.press("ArrowUp")
     keys.press("Enter")
     hand.until("p => p.store.history.edits === 1")
+    hand.settled()
     assert "curves followed" in (said.text_content() or "")
     keys.press("]")
     hand.settled()

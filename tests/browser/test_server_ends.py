@@ -55,7 +55,7 @@ def test_a_killed_server_loses_nothing_that_was_committed(
     x, y = hand.press(POINT)
     hand.to(x + 3.0, y)
     first.run.send_signal(signal.SIGKILL)
-    first.run.wait()
+    first.run.communicate()
     page.wait_for_selector(".banner:not([hidden])")
     assert "kept" in page.locator(".banner").inner_text()
     assert hand.ask("p => p.store.held === null && p.store.overlay === null")
@@ -75,7 +75,8 @@ def test_a_killed_server_loses_nothing_that_was_committed(
         other.until("p => p.store.history.edits === 2")
     finally:
         second.run.send_signal(signal.SIGINT)
-        assert second.run.wait(30.0) == 130
+        second.run.communicate(timeout=30.0)
+        assert second.run.returncode == 130
         context.close()
     opened = ah.open(path)
     assert [step.author for step in opened.history] == ["anna", "anna"]

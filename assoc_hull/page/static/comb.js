@@ -93,6 +93,7 @@ function cuts(zero, one, two) {
 
 /** After which lobes the bend changes its side, small ones taken into their neighbours. @param {{turn: number}[]} lobes */
 function changes(lobes) {
+  /** @type {number[]} */
   const found = [];
   let side = 0, at = -1, heading = 0, high = 0, low = 0, peak = 0;
   lobes.forEach(({turn}, index) => {

@@ -104,11 +104,11 @@ export function movementOf(frame, published) {
   return found;
 }
 
-/** The farthest that any curve of a frame lies off its published shape, m. @param {Frame} frame @param {Map<number, Curve>} published */
-export function farthest(frame, published) {
+/** The farthest that curves of a frame lie off their published shape, m. @param {Frame} frame @param {Map<number, Curve>} published @param {(id: number) => boolean} [counts] */
+export function farthest(frame, published, counts = () => true) {
   let most = 0;
-  for (const moved of movementOf(frame, published).values()) {
-    if (moved) for (let p = 0; p < moved.length; p += 3) most = Math.max(most, Math.hypot(moved[p], moved[p + 1], moved[p + 2]));
+  for (const [id, moved] of movementOf(frame, published)) {
+    if (moved && counts(id)) for (let p = 0; p < moved.length; p += 3) most = Math.max(most, Math.hypot(moved[p], moved[p + 1], moved[p + 2]));
   }
   return most;
 }
@@ -154,8 +154,12 @@ function stroke(view, g, id, colour, width) {
 
 /** Stretches that moved, in three strengths by how far, and the movement itself, magnified. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame @param {boolean} predicted */
 function drawMoved(view, g, ink, frame, predicted) {
-  const {net, curves, show} = view.store, moved = movementOf(frame, curves), top = Math.max(farthest(frame, curves), 1e-3);
+  const {net, curves, show} = view.store, moved = movementOf(frame, curves);
   if (!net) return;
+  const top = Math.max(farthest(frame, curves, (id) => {
+    const line = net.lineOf(id);
+    return line !== undefined && view.shows(line);
+  }), 1e-3);
   g.strokeStyle = ink.live;
   const strengths = /** @type {[number, number, number, number][]} */ ([[LEAST_MOVED, top / 8, 0.35, 0.9], [top / 8, top / 2, 0.75, 1.3], [top / 2, Infinity, 1, 1.9]]);
   for (const [low, high, alpha, width] of strengths) {

@@ -11,14 +11,17 @@ const PIXELS = 0.5;
 const FIRST = 4; // 1/m, before anything is known: 20 mm beside are wrong by 1.6 mm
 
 export class Predictor {
-  constructor() { this.reset(); }
-
-  reset() {
+  constructor() {
     /** @type {{frame: Frame, amount: number} | null} */
     this.truth = null;
     /** @type {number[]} */
     this.bends = [];
     this.tried = this.held = 0;
+  }
+
+  reset() {
+    this.truth = null;
+    this.bends = [];
   }
 
   /** @param {Frame} frame @param {number} amount @param {Map<number, Curve>} curves @param {Map<number, Float64Array>} places */

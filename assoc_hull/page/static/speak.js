@@ -9,13 +9,15 @@ const PAUSE = 1000; // ms
 export class Speaker {
   /** @param {HTMLElement} root */
   constructor(root) {
-    [this.polite, this.urgent] = ["polite", "assertive"].map((how) => {
+    const [polite, urgent] = ["polite", "assertive"].map((how) => {
       const region = document.createElement("div");
       region.className = "spoken";
       region.setAttribute("aria-live", how);
       root.append(region);
       return region;
     });
+    this.polite = polite;
+    this.urgent = urgent;
     this.last = 0;
     this.refused = "";
   }

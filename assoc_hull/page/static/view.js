@@ -23,7 +23,8 @@ export class View {
     this.axis = axis;
     /** @type {View | null} */
     this.partner = null;
-    [this.a, this.b] = PLANE[kind];
+    this.a = PLANE[kind][0];
+    this.b = PLANE[kind][1];
     this.oy = 0;
     this.sy = 1;
     this.yaw = -0.62;
@@ -189,7 +190,7 @@ export class View {
   /** Shows all of the hull; views that share an axis agree on it. */
   fit() {
     if (!this.shown || !this.store.curves.size) return;
-    const both = [this, this.partner].filter((view) => view !== null && view.shown);
+    const both = (this.partner ? [this, this.partner] : [this]).filter((view) => view.shown);
     const rooms = both.map((view) => view.room()), squeeze = this.kind === "wire" || this.kind === "body" ? 1 : this.store.squeeze;
     this.axis.s = Math.min(...rooms.map((room) => Math.min(room.across, room.up)));
     both.forEach((view, i) => {

@@ -20,7 +20,8 @@ PORT = 8123
 OWN = [f"127.0.0.1:{PORT}", f"localhost:{PORT}"]
 FOREIGN_HOSTS = [
     None, "", "127.0.0.1", "localhost", f"127.0.0.1:{PORT + 1}", "127.0.0.1:80",
-    f"127.evil.example:{PORT}", f"evil.example:{PORT}", f"127.0.0.1.evil.example:{PORT}", f"localhost.:{PORT}", f"[::1]:{PORT}",
+    f"127.evil.example:{PORT}", f"evil.example:{PORT}", f"127.0.0.1.evil.example:{PORT}",
+    f"localhost.:{PORT}", f"[::1]:{PORT}",
     f"0.0.0.0:{PORT}", f"127.0.0.1:{PORT}@evil.example", f"LOCALHOST:{PORT}", f" 127.0.0.1:{PORT}",
 ]  # fmt: skip
 FOREIGN_ORIGINS = [
