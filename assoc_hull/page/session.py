@@ -193,9 +193,7 @@ class Session:
         _send(client, describe_state(self.hull.document, client.author))
 
     def _begin(self, client: Client, message: Begin) -> None:
-        if (held := self._gesture) is not None and held.client is not client:
-            name = address(self.hull.state, held.row)
-            text = f"{held.client.author} holds {name}; wait until it is let go"
+        if (text := self._held_by_other(client)) is not None:
             self._refuse(client, message.gesture, 0, (text,), None)
             return
         self._end_gesture()
@@ -219,6 +217,18 @@ class Session:
             "normal": None if drag.normal is None else drag.normal.tolist(),
             "radius": None if drag.radius is None else list(drag.radius),
         })  # fmt: skip
+
+    def _held_by_other(self, client: Client) -> str | None:
+        """Say who else has a point in hand: nobody takes the hull from under it."""
+        if (held := self._gesture) is None or held.client is client:
+            return None
+        name = address(self.hull.state, held.row)
+        return f"{held.client.author} holds {name}; wait until it is let go"
+
+    def _require_free(self, client: Client, act: str) -> None:
+        if (text := self._held_by_other(client)) is not None:
+            who, _, remedy = text.partition("; ")
+            raise BadInputError(who, f"in {act}", remedy)
 
     def _held(self, client: Client, gesture: int) -> _Gesture | None:
         held = self._gesture
@@ -255,7 +265,8 @@ class Session:
 
     def _commit(self, client: Client, message: Commit) -> None:
         if (held := self._held(client, message.gesture)) is None:
-            return
+            what = "the point was let go before"
+            raise BadInputError(what, f"in {message.name}", "take hold of it again")
         live = held.drag.to(**message.amounts)
         if live.refused:
             self._refuse(client, message.gesture, message.seq, live.refused, held.row)
@@ -278,6 +289,7 @@ class Session:
             assert report is not None, "no edit is open here that it could have joined"
             return report
 
+        self._require_free(client, "an edit")
         try:
             self._edit(client, carry_out, number=message.id)
         except RefusedEditError as error:
@@ -304,11 +316,13 @@ class Session:
         })  # fmt: skip
 
     def _undo(self, client: Client, message: Undo) -> None:
+        self._require_free(client, "undo")
         before = self.hull.state_number
         self.hull.undo(author=client.author)
         self._turned(client, before, message.id)
 
     def _redo(self, client: Client, message: Redo) -> None:
+        self._require_free(client, "redo")
         before = self.hull.state_number
         self.hull.redo()
         self._turned(client, before, message.id)

@@ -8,14 +8,18 @@ from tests.browser.conftest import AXE, Hand, Open
 POINT = "WL 0.625 x ST 16"
 
 
-def findings(hand: Hand) -> list[str]:
-    """What axe finds: the rule, and where."""
+LOOKED_AT = {"color-contrast", "button-name", "region", "target-size"}
+
+
+def findings(hand: Hand, *, behind: bool = False) -> list[str]:
+    """What axe finds: the rule, and where; what lies behind a sheet has no contrast to judge."""
     kept, found = hand.page.evaluate(
-        "async () => { const r = await axe.run(document, {runOnly: ['wcag2a', 'wcag2aa', 'wcag21aa',"
+        "async () => { const r = await axe.run(document, {runOnly:"
+        " ['wcag2a', 'wcag2aa', 'wcag21aa',"
         " 'wcag22aa', 'best-practice']}); return [r.passes.map(p => p.id),"
         " r.violations.flatMap(v => v.nodes.map(n => v.id + ' ' + n.target))]; }"
     )
-    assert {"color-contrast", "button-name", "region"} <= set(kept), "these rules were looked at"
+    assert set(kept) >= LOOKED_AT - ({"color-contrast"} if behind else set())
     return [str(each) for each in found]
 
 
@@ -31,4 +35,4 @@ def test_no_rule_is_broken(open_page: Open, hull: ah.Hull, theme: str, width: in
     hand.page.wait_for_selector(".bubble")
     assert findings(hand) == []
     hand.page.get_by_role("button", name="Keys").click()
-    assert findings(hand) == []
+    assert findings(hand, behind=True) == []

@@ -129,7 +129,7 @@ def test_marks_of_inflection_are_those_of_the_library(
 def test_lengths_are_compressed_and_a_view_stands_alone(open_page: Open, hull: ah.Hull) -> None:
     """How much taller heights are is said; Esc brings all views back."""
     hand = open_page(hull)
-    hand.page.locator(".view-half canvas").last.click(position={"x": 500, "y": 120})
+    hand.page.locator(".view-body canvas").last.click(position={"x": 20, "y": 200})
     hand.page.keyboard.press("3")
     hand.settled()
     assert hand.page.locator(".view-body").is_hidden()
@@ -143,6 +143,8 @@ def test_lengths_are_compressed_and_a_view_stands_alone(open_page: Open, hull: a
     hand.page.keyboard.press("Escape")
     hand.settled()
     assert hand.page.locator(".view-body").is_visible()
+    hand.page.keyboard.press("k")
+    assert not hand.ask("p => p.store.show.combs"), "keys act on, whatever was hidden"
 
 
 def test_nothing_is_drawn_while_nothing_happens(open_page: Open, hull: ah.Hull) -> None:

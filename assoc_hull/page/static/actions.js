@@ -62,7 +62,7 @@ export const ACTIONS = [
   {id: "next-curve", words: "Next curve of the view", keys: ["}"], run: (page) => page.stepCurve(1)},
   {id: "previous-curve", words: "Previous curve of the view", keys: ["{"], run: (page) => page.stepCurve(-1)},
   {id: "find", words: "Find a point or a line by its name", keys: ["/"], run: (page) => page.search()},
-  {id: "theme", words: "Light, dark, or as the system", keys: ["t"], label: (page) => ({auto: "Theme: system", light: "Theme: light", dark: "Theme: dark"})[page.store.theme] ?? "Theme", run: (page) => page.nextTheme()},
+  {id: "theme", words: "Light, dark, or as the system", keys: ["t"], label: () => "Theme", run: (page) => page.nextTheme()},
   {id: "keys", words: "All keys", keys: ["?"], label: () => "Keys", run: (page) => page.sheet()},
 ];
 

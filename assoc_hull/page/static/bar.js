@@ -108,6 +108,7 @@ export function makeBar(page) {
 function hint(page, id) {
   const {undo, redo, above} = page.store.history;
   if (id === "undo" && undo !== null) return above === null ? `Undo: ${undo}` : `The last edit is ${above}'s: ${undo}`;
+  if (id === "theme") return `Light, dark, or as the system: now ${page.store.theme === "auto" ? "as the system" : page.store.theme}`;
   if (id === "redo" && redo !== null) return `Redo: ${redo}`;
   return undefined;
 }

@@ -288,6 +288,7 @@ export class Page {
 
   /** @param {Kind} kind */
   maximise(kind) {
+    const at = this.root.ownerDocument.activeElement, drawing = at instanceof HTMLCanvasElement;
     const back = this.store.maximised === kind;
     this.store.maximised = back ? null : kind;
     this.store.tab = kind;
@@ -296,6 +297,8 @@ export class Page {
     for (const view of Object.values(this.views)) view.fitted = true;
     this.store.changed("hull", "overlay", "panel");
     if (!back) this.active = kind;
+    // A drawing that is hidden cannot keep the focus, and the keys act where it is.
+    if (drawing) this.activeView().upper.focus({preventScroll: true});
   }
 
   /** Brings what is chosen to the middle, where it is not seen, or nearer. @param {number} nearer */

@@ -48,7 +48,11 @@ def test_what_does_not_fit_is_one_line(
     shipped("wigley").save(path)
     words_of = [str(path), *given] if given[0].startswith("--") else given
     run = subprocess.run(
-        [*COMMAND, *words_of, "--no-browser"], capture_output=True, text=True, timeout=60, check=False
+        [*COMMAND, *words_of, "--no-browser"],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
     )
     assert run.returncode == 2
     assert run.stderr.startswith("error: ")
