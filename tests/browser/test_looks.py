@@ -342,3 +342,41 @@ def test_a_second_page_sees_what_the_first_has_made(two: tuple[Hand, Hand]) -> N
     second.page.wait_for_selector(".banner:not([hidden])")
     assert "bert" in second.page.locator(".banner").inner_text()
     assert len(first.hull.history) == 2
+
+
+def test_the_points_of_a_line_stand_in_a_table(open_page: Open, hull: ah.Hull) -> None:
+    """In their order along it, each chosen from there; it follows what is committed."""
+    hand = open_page(hull)
+    hand.page.mouse.click(*hand.spot(POINT))
+    hand.page.keyboard.press("a")
+    rows = hand.page.locator("aside table tbody tr")
+    hand.page.wait_for_selector("aside table")
+    shown = rows.all_inner_texts()
+    assert len(shown) == len(hull.lines["ST 16"].curves[0].points)
+    heights = [float(text.split()[-1]) for text in shown]
+    assert heights == sorted(heights) or heights == sorted(heights, reverse=True)
+    hand.page.locator("aside table button", has_text="WL 0.5").first.click()
+    hand.settled()
+    assert hand.ask("p => p.store.net.points.get(p.store.selection.row).name") == "WL 0.5 x ST 16"
+    before = rows.all_inner_texts()
+    hand.ask("p => p.activeView().upper.focus()")
+    hand.page.keyboard.press("Shift+ArrowUp")
+    hand.page.keyboard.press("Enter")
+    hand.until("p => p.store.history.edits === 1")
+    hand.settled()
+    assert rows.all_inner_texts() != before
+
+
+def test_what_is_wrong_is_listed_and_found(open_page: Open, hull: ah.Hull) -> None:
+    """Nothing here; what was found is told to be old after an edit."""
+    hand = open_page(hull)
+    hand.page.mouse.click(*hand.spot(POINT))
+    hand.page.keyboard.press("Shift+P")
+    hand.until("p => p.panel.problems.found !== null")
+    assert "Nothing is wrong." in hand.page.locator("aside").inner_text()
+    hand.ask("p => p.activeView().upper.focus()")
+    hand.page.keyboard.press("ArrowUp")
+    hand.page.keyboard.press("Enter")
+    hand.until("p => p.store.history.edits === 1")
+    hand.settled()
+    assert "before the last edit" in hand.page.locator("aside").inner_text()

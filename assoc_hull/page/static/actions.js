@@ -62,6 +62,11 @@ export const ACTIONS = [
   {id: "next-curve", words: "Next curve of the view", keys: ["}"], run: (page) => page.stepCurve(1)},
   {id: "previous-curve", words: "Previous curve of the view", keys: ["{"], run: (page) => page.stepCurve(-1)},
   {id: "find", words: "Find a point or a line by its name", keys: ["/"], run: (page) => page.search()},
+  {id: "point-table", words: "Table of the points of the line", keys: ["a"], run: (page) => page.panel.open("Points")},
+  {id: "problems", words: "What is wrong with the hull", keys: ["Shift+p"], run: (page) => {
+    page.panel.open("Problems");
+    page.panel.problems.ask();
+  }},
   {id: "theme", words: "Light, dark, or as the system", keys: ["t"], label: () => "Theme", run: (page) => page.nextTheme()},
   {id: "keys", words: "All keys", keys: ["?"], label: () => "Keys", run: (page) => page.sheet()},
 ];

@@ -14,6 +14,7 @@ import {paintHull, paintOverlay} from "./paint.js";
 import {readInk, themeOf} from "./theme.js";
 import {placeBubble} from "./bubble.js";
 import {makeBar} from "./bar.js";
+import {alongCurve} from "./lists.js";
 
 /** @typedef {import("./view.js").Kind} Kind */
 /** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */
@@ -105,7 +106,8 @@ export class Page {
       store.last = message;
       this.say(`${message.name}: ${message.relofted} curves followed.`);
       store.changed("panel");
-    } else if (message.t === "problem") {
+    } else if (message.t === "answer") this.panel.problems.answer(message);
+    else if (message.t === "problem") {
       hand.problem(message);
       store.problem = message.text;
       store.changed("panel", "overlay");
@@ -231,14 +233,20 @@ export class Page {
     this.keep();
   }
 
-  undo() { this.link.send({t: "undo", id: ++this.number}); }
+  /** Asks for something; gives the number that the answer will have. @param {object} message */
+  request(message) {
+    this.link.send({...message, id: ++this.number});
+    return this.number;
+  }
 
-  redo() { this.link.send({t: "redo", id: ++this.number}); }
+  undo() { this.request({t: "undo"}); }
+
+  redo() { this.request({t: "redo"}); }
 
   /** @param {string} name @param {object[]} ops */
   apply(name, ops) {
     this.store.refusal = this.store.problem = null;
-    this.link.send({t: "apply", id: ++this.number, name: name.slice(0, 190), ops});
+    this.request({t: "apply", name: name.slice(0, 190), ops});
   }
 
   /** @param {string} name */
@@ -314,10 +322,10 @@ export class Page {
 
   /** @param {number} by */
   step(by) {
-    const {selection, curves} = this.store, id = selection.curve, rows = id === null ? undefined : this.store.net?.rowsOf.get(id);
-    if (!rows || id === null || !curves.has(id)) return this.say("Choose a line first.");
-    const order = alongCurve(this.store, id, rows), at = selection.row === null ? (by > 0 ? -1 : 0) : order.indexOf(selection.row);
-    this.#choose(order[(at + by + order.length) % order.length], id);
+    const {selection, curves} = this.store, id = selection.curve;
+    if (id === null || !curves.has(id)) return this.say("Choose a line first.");
+    const order = alongCurve(this.store, id), at = selection.row === null ? (by > 0 ? -1 : 0) : order.indexOf(selection.row);
+    this.choose(order[(at + by + order.length) % order.length], id);
   }
 
   /** @param {number} by */
@@ -325,11 +333,11 @@ export class Page {
     const view = this.activeView(), lines = (this.store.net?.lines ?? []).filter((line) => line.family !== "boundary" && view.shows(line));
     lines.sort((p, q) => (p.offset ?? 0) - (q.offset ?? 0));
     const ids = lines.flatMap((line) => line.curves), at = this.store.selection.curve === null ? (by > 0 ? -1 : 0) : ids.indexOf(this.store.selection.curve);
-    if (ids.length) this.#choose(null, ids[(at + by + ids.length) % ids.length]);
+    if (ids.length) this.choose(null, ids[(at + by + ids.length) % ids.length]);
   }
 
   /** @param {number | null} row @param {number | null} curve */
-  #choose(row, curve) {
+  choose(row, curve) {
     this.store.select(row, curve);
     this.fly(1);
     const {net} = this.store, point = row === null ? undefined : net?.points.get(row);
@@ -346,7 +354,7 @@ export class Page {
     if (row === null && curve === undefined) return this.say(`There is no point and no line "${name}": type a name such as ${net.byName[0]?.[0] ?? "WL 1"}.`);
     const point = row === null ? undefined : net.points.get(row), view = this.activeView();
     const on = point ? [point.a, point.b].find((id) => { const line = net.lineOf(id); return line && view.shows(line) && line.family !== "boundary"; }) ?? point.a : curve ?? null;
-    this.#choose(row, on);
+    this.choose(row, on);
     view.upper.focus({preventScroll: true});
   }
 
@@ -393,20 +401,4 @@ export class Page {
       this.options.keep("looks", "{}"); // what was kept is none of ours
     }
   }
-}
-
-/** Points of a curve in their order along it. @param {Store} store @param {number} id @param {number[]} rows */
-function alongCurve(store, id, rows) {
-  const c = store.curves.get(id), where = (/** @type {number} */ row) => {
-    const place = store.places.get(row);
-    let best = 0, least = Infinity;
-    if (c && place) for (let i = 0; i + 1 < c.n; i++) {
-      const p = 3 * i, d = [0, 1, 2].map((j) => c.xyz[p + 3 + j] - c.xyz[p + j]), w = [0, 1, 2].map((j) => place[j] - c.xyz[p + j]);
-      const t = Math.min(Math.max((d[0] * w[0] + d[1] * w[1] + d[2] * w[2]) / (d[0] ** 2 + d[1] ** 2 + d[2] ** 2 || 1), 0), 1);
-      const far = Math.hypot(w[0] - t * d[0], w[1] - t * d[1], w[2] - t * d[2]);
-      if (far < least) [least, best] = [far, i + t];
-    }
-    return best;
-  };
-  return rows.map((row) => ({row, at: where(row)})).sort((p, q) => p.at - q.at).map(({row}) => row);
 }

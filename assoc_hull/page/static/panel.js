@@ -3,6 +3,7 @@
 import {inflections} from "./comb.js";
 import {arcLength} from "./hermite.js";
 import {farthest} from "./paint.js";
+import {PointTable, Problems} from "./lists.js";
 
 /** @typedef {import("./page.js").Page} Page */
 
@@ -19,9 +20,10 @@ export class Panel {
   /** @param {Page} page @param {HTMLElement} element */
   constructor(page, element) {
     this.page = page;
-    this.parts = Object.fromEntries(["Point", "Curve", "Edit", "Pull", "Signed as"].map((title) => {
+    this.parts = Object.fromEntries(["Point", "Curve", "Edit", "Pull", "Points", "Problems", "Signed as"].map((title) => {
       const box = document.createElement("details"), head = document.createElement("summary"), heading = document.createElement("h2"), body = document.createElement("div");
-      box.open = true;
+      box.open = title !== "Points" && title !== "Problems";
+      box.ontoggle = () => page.store.changed("panel");
       heading.textContent = title;
       head.append(heading);
       box.append(head, body);
@@ -33,6 +35,8 @@ export class Panel {
     this.shownRow = /** @type {number | null | undefined} */ (undefined);
     this.shownState = -1;
     this.#signature();
+    this.points = new PointTable(page, this.parts.Points);
+    this.problems = new Problems(page, this.parts.Problems);
     this.radii = [0, 1].map((i) => this.#radius(i));
     this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
   }
@@ -60,6 +64,17 @@ export class Panel {
     this.#point();
     this.#curve();
     this.#edit();
+    this.points.render();
+    this.problems.render();
+  }
+
+  /** Opens a part, and gives it the focus. @param {"Points" | "Problems"} title */
+  open(title) {
+    const box = this.parts[title].closest("details");
+    if (!box) return;
+    box.open = true;
+    box.querySelector("summary")?.focus();
+    this.render();
   }
 
   /** @param {HTMLElement} box @param {[string, string | Node][]} rows */
