@@ -4,6 +4,7 @@ import math
 
 import assoc_hull as ah
 from tests.browser.conftest import Hand, Open
+from tests.taken_back import taken_back
 
 POINT = "WL 0.625 x ST 16"
 
@@ -309,20 +310,11 @@ def test_what_is_typed_is_one_step_and_nonsense_is_none(open_page: Open, hull: a
     assert len(hull.history) == 1
 
 
-def test_the_dtc_is_pulled_as_well(open_page: Open, dtc: ah.Hull) -> None:
-    """A hull from a mesh, with knuckles and stations that no number names."""
-    hand = open_page(dtc)
-    name = hand.ask(
-        "p => { const v = p.views.body; for (const row of v.rows()) { const q ="
-        " p.store.net.points.get(row),"
-        " at = p.store.places.get(row); if (q.free === 'y' && q.role === 0 && at[0] > 280 &&"
-        " at[0] < 310"
-        " && at[2] > 10 && at[2] < 20) return q.name; } }"
-    )
-    try:
+def test_a_ship_with_a_bulb_is_pulled_as_well(open_page: Open, bulk_carrier: ah.Hull) -> None:
+    """Another hull, with stations of other names; it is taken back in the end."""
+    hand, name = open_page(bulk_carrier), "WL 11 x ST 19"
+    with taken_back(bulk_carrier):
         hand.near(name)
         hand.pull(name, 12.0)
-        assert len(dtc.history) == 1
+        assert len(bulk_carrier.history) == 1
         assert hand.shows_what_is_published()
-    finally:
-        dtc.undo(len(dtc.history)) if dtc.history else None

@@ -98,7 +98,7 @@ export function makeBar(page) {
       close.type = "button";
       close.textContent = "Close";
       close.onclick = () => dialog.close();
-      dialog.replaceChildren(heading, note, table, close);
+      dialog.replaceChildren(close, heading, note, table);
       dialog.showModal();
     },
   };
