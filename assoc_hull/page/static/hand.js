@@ -47,6 +47,7 @@ export class Hand {
     this.wish = this.last = null;
     this.inFlight = 0;
     this.predictor.reset();
+    this.asked.clear();
     const place = [...start], free = this.store.net?.points.get(row)?.free ?? "";
     this.store.held = {row, how, place, start: place, free, normal: null, radius: null, way: null, amount: null, held: false, refused: false, waiting: false};
     this.store.refusal = null;
@@ -207,6 +208,7 @@ export class Hand {
     const mine = message.gesture === this.gesture && this.store.held !== null;
     const made = this.committing?.gesture === message.gesture && message.gesture !== 0;
     if (!mine && !made) return false;
+    this.asked.delete(message.seq);
     const held = this.store.held, row = held?.row ?? this.committing?.row ?? null;
     const text = message.reasons.join("\n"), place = held ? held.place : row === null ? null : [...(this.store.places.get(row) ?? [])];
     this.store.refusal = {text, row, place, named: this.store.net?.named(text) ?? []};

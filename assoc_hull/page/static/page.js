@@ -182,7 +182,7 @@ export class Page {
     }
     this.stats.frames++;
     this.stats.drawn.push(performance.now() - begin);
-    if (this.stats.drawn.length > 2000) this.stats.drawn.shift();
+    for (const kept of [this.stats.drawn, this.stats.steps]) if (kept.length > 2000) kept.shift();
     const {dataset} = this.root;
     dataset.state = String(store.state);
     dataset.connection = store.connection;
