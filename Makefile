@@ -38,9 +38,9 @@ BROWSER ?= $(shell command -v chromium || command -v chromium-browser || command
 test-page: $(VENV)/.page  ## the fairing page in a real browser, on two processes
 	@test -n "$(BROWSER)" || { echo "error: no browser was found: apt-get install chromium," \
 		"or name one: make test-page BROWSER=/path" >&2; exit 2; }
-	@command -v npm >/dev/null || echo "npm is missing: types and accessibility are not checked"
-	if command -v npm >/dev/null; then $(MAKE) --no-print-directory $(NPM)/.installed && \
-		$(NPM)/node_modules/.bin/tsc -p tests/browser/tsconfig.json; fi
+	@if command -v npm >/dev/null && $(MAKE) --no-print-directory $(NPM)/.installed; then \
+		$(NPM)/node_modules/.bin/tsc -p tests/browser/tsconfig.json; \
+		else echo "npm is missing: types and accessibility are NOT checked"; fi
 	ASSOC_HULL_BROWSER="$(BROWSER)" $(BIN)/python -m pytest -n 2 tests/browser $(ARGS)
 
 # Nothing of it is shipped: it looks at the types of the page's modules, and at its accessibility.
