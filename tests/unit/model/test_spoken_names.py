@@ -112,8 +112,8 @@ def test_groups_are_found_however_they_are_written() -> None:
 def test_pictures_take_names_as_they_are_spoken() -> None:
     """A name that is no line is refused as ever."""
     hull = ah.examples.wigley()
-    assert hull.plot.lines_plan(highlight=["wl 2,50"])
-    assert hull.plot.curvature_combs(["wl 2,50", "st07"])
-    assert hull.plot.neighbourhood("wl 2,50")
+    assert hull.plot.lines_plan(highlight=["wl 2,50"]).axes
+    assert hull.plot.curvature_combs(["wl 2,50", "st07"]).axes
+    assert hull.plot.neighbourhood("wl 2,50").axes
     with pytest.raises(UnknownNameError):
         hull.plot.lines_plan(highlight=["WL 2.51"])

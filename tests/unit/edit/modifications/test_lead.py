@@ -522,7 +522,7 @@ def test_a_line_that_goes_after_its_point_was_asked_for_is_refused(wigley: Hull,
     """It says so, and two edits do it."""
     before = wigley.fingerprint
     asked = [("WL 2.5 x ST 7", np.add(wigley.points["WL 2.5 x ST 7"].position, (0, 0.005, 0)))]
-    script = [
+    script: list[dict[str, object]] = [
         {"op": "lead", "line": "WL 2.5", "points": asked},
         {"op": "remove_line", "line": gone},
     ]
