@@ -472,7 +472,7 @@ class ProgramEdit:
         return Step.told_later(name, self.journal, changed, curves, notes)
 
     def change(self) -> TableChange:
-        """Give what the edit has changed: numbers of the program, and how far fairing took points."""
+        """Give what the edit has changed: of numbers, and of how far fairing took points."""
         numbers, faired = self.numbers, self.document.state.rows.faired
         found = change_of_shape(
             numbers.runner, numbers.published.values, numbers.values, self.runs, self.ridden

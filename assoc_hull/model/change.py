@@ -416,9 +416,7 @@ def change_of(state: HullState, journal: Journal) -> TableChange:
     )  # fmt: skip
 
 
-def net_bits(
-    journal: Journal, column: Column[np.generic]
-) -> tuple[IntArray, NDArray[np.uint8]]:
+def net_bits(journal: Journal, column: Column[np.generic]) -> tuple[IntArray, NDArray[np.uint8]]:
     """Give the rows of a column that a journal has changed in the end, and the bits, by bytes."""
     net = journal.net(column)
     found = row_bits(net.old) ^ row_bits(net.new)
