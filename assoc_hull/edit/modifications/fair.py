@@ -21,6 +21,7 @@ from assoc_hull.analysis.fairness.fair_solution import (
     FairSolution,
     estimate_noise,
     hold_sums,
+    linear_algebra,
     solve_battens,
 )
 from assoc_hull.analysis.fairness.rounding_unit import rounding_noise, rounding_unit
@@ -285,10 +286,11 @@ def solve_fair(
     """
     state = document.state.published()
     given = given_values(document, asked)
-    noise, source = _noise(state, given.problem, asked.noise)
-    within = tolerances_of(state, given.problem, asked, noise)
-    limit = within * given.problem.freedom
-    solution = solve_battens(given.problem, noise, given.share, limit)
+    with linear_algebra().limit(limits=1):
+        noise, source = _noise(state, given.problem, asked.noise)
+        within = tolerances_of(state, given.problem, asked, noise)
+        limit = within * given.problem.freedom
+        solution = solve_battens(given.problem, noise, given.share, limit)
     digit = (_FINE_DIGIT if asked.hold else _DIGIT) * state.tolerances.factor
     if asked.hold:
         solution = _held(document, given, solution, limit, digit, asked.hold)
