@@ -62,7 +62,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(argv: Sequence[str] | None) -> int:
     try:
-        arguments = make_parser().parse_args(_with_axes(sys.argv[1:] if argv is None else argv))
+        words = _with_axes(sys.argv[1:] if argv is None else argv)
+        arguments = make_parser(words).parse_args(words)
     except SystemExit as done:  # --help and --version
         return int(done.code or 0)
     with warnings.catch_warnings():

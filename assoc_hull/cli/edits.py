@@ -218,7 +218,7 @@ Changes = Sequence[Mapping[str, Any]]
 def add_edit(commands: Commands) -> None:
     """Add ``edit``."""
     parser = add_command(
-        commands, "edit", "carry out edits and let the hull follow; exit 1 if they are refused",
+        commands, "edit",
         _edit,
         """assoc-hull edit ship.hull edits.json --why "BTK 0.44"
         assoc-hull edit ship.hull edits.json -o fairer.hull
@@ -386,16 +386,16 @@ def _read(path: Path) -> Changes:
 
 def add_history(commands: Commands) -> None:
     """Add ``undo``, ``redo``, ``history``, ``checkpoint``, ``go`` and ``diff``."""
-    for name, about in (("undo", "take back the last edits"), ("redo", "make them again")):
+    for name in ("undo", "redo"):
         turn = add_command(
-            commands, name, about, _turn,
+            commands, name, _turn,
             f"assoc-hull {name} ship.hull\nassoc-hull {name} ship.hull 3",
         )  # fmt: skip
         _add_common(turn, writes=True)
         turn.add_argument("count", metavar="N", type=int, nargs="?", default=1, help="default: 1")
         turn.set_defaults(act=name)
     history = add_command(
-        commands, "history", "list the edits, checkpoints and branches", _history,
+        commands, "history", _history,
         "assoc-hull history ship.hull\nassoc-hull history ship.hull --step 3 --json",
     )  # fmt: skip
     _add_common(history, writes=False)
@@ -403,19 +403,19 @@ def add_history(commands: Commands) -> None:
         "--step", metavar="N", type=int, help="tell one edit in full: what was asked for, and done"
     )
     check = add_command(
-        commands, "checkpoint", "name the present state", _checkpoint,
+        commands, "checkpoint", _checkpoint,
         'assoc-hull checkpoint ship.hull "before the bulb"',
     )  # fmt: skip
     _add_common(check, writes=True)
     check.add_argument("name", metavar="NAME", help="a name that is free")
     go = add_command(
-        commands, "go", "return to a checkpoint or branch", _go,
+        commands, "go", _go,
         'assoc-hull go ship.hull "before the bulb"',
     )  # fmt: skip
     _add_common(go, writes=True)
     go.add_argument("name", metavar="NAME", help="as `history` lists it")
     diff = add_command(
-        commands, "diff", "tell how two states differ", _diff,
+        commands, "diff", _diff,
         """assoc-hull diff ship.hull "before the bulb"
         assoc-hull diff ship.hull "before the bulb" "branch 1" --json""",
     )  # fmt: skip
@@ -573,7 +573,7 @@ def _diff(arguments: argparse.Namespace) -> int:
 def add_replay(commands: Commands) -> None:
     """Add ``replay``."""
     parser = add_command(
-        commands, "replay", "make the edits of one hull again on another; exit 1 if one fails",
+        commands, "replay",
         _replay,
         """assoc-hull replay ship.hull sister.hull
         assoc-hull replay ship.hull sister.hull.json -o faired.hull --skip""",
