@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 
 import attrs
 
-from assoc_hull.arguments import choice, integer, number, once, pair, shown, shown_name
+from assoc_hull.arguments import choice, flag, integer, number, once, pair, shown, shown_name
 from assoc_hull.arguments import text as one_line
 from assoc_hull.errors import BadInputError, WrongTypeError
 
@@ -24,10 +24,12 @@ __all__ = [
     "Commit",
     "Hello",
     "Message",
+    "Parameters",
     "Redo",
     "Sign",
     "To",
     "Undo",
+    "Vary",
     "parse",
 ]
 
@@ -70,6 +72,20 @@ def _operations(_: object, field: attrs.Attribute[Any], value: object) -> None:
     fits = isinstance(value, list) and bool(value) and all(isinstance(e, dict) for e in value)
     if not fits:
         raise WrongTypeError(f"{field.name} is {shown(value)}", _WHERE, "give a list of edits")
+
+
+def _values(_: object, field: attrs.Attribute[Any], value: object) -> None:
+    if not isinstance(value, dict) or not value:
+        raise WrongTypeError(f"{field.name} is {shown(value)}", _WHERE, "give values by name")
+    for name, each in value.items():
+        if isinstance(each, bool) or not isinstance(each, int | float):
+            what = f"{shown_name(name)} of {field.name} is {shown(each)}"
+            raise WrongTypeError(what, _WHERE, "give a number")
+        number(each, f"{shown_name(name)} of {field.name}", _WHERE)
+
+
+def _flag(_: object, field: attrs.Attribute[Any], value: object) -> None:
+    flag(value, field.name, _WHERE)
 
 
 @attrs.frozen
@@ -160,11 +176,28 @@ class Check:
     id: int = attrs.field(validator=_count)
 
 
-Message = Hello | Sign | Begin | To | Commit | Cancel | Apply | Undo | Redo | Check
+@attrs.frozen
+class Parameters:
+    """List the named parameters of the hull."""
+
+    id: int = attrs.field(validator=_count)
+
+
+@attrs.frozen
+class Vary:
+    """Set named parameters: to be shown, or to be made."""
+
+    id: int = attrs.field(validator=_count)
+    set: dict[str, float] = attrs.field(validator=_values)
+    apply: bool = attrs.field(default=False, validator=_flag)
+
+
+Message = Hello | Sign | Begin | To | Commit | Cancel | Apply | Undo | Redo | Check | Parameters | Vary
 
 _KINDS: dict[str, type[Message]] = {
     kind.__name__.lower(): kind
-    for kind in (Hello, Sign, Begin, To, Commit, Cancel, Apply, Undo, Redo, Check)
+    for kind in (Hello, Sign, Begin, To, Commit, Cancel, Apply, Undo, Redo, Check,
+                 Parameters, Vary)
 }
 
 

@@ -13,6 +13,7 @@ import logging
 import threading
 from collections import deque
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, ClassVar, Protocol, cast
 
 import attrs
@@ -35,11 +36,14 @@ from assoc_hull.page.messages import (
     Commit,
     Hello,
     Message,
+    Parameters,
     Redo,
     Sign,
     To,
     Undo,
+    Vary,
 )
+from assoc_hull.page.variants import describe_parameters, ghost_of_variant
 from assoc_hull.page.wire import Frame, FrameKind, pack
 
 __all__ = ["Client", "Session"]
@@ -84,6 +88,8 @@ class Session:
         self._jobs = deque[tuple[Client, Message | None]]()
         self._awake = threading.Condition()
         self._open = True
+        self._reader = ThreadPoolExecutor(1, "assoc-hull page reader")
+        self._newest = dict[Client, int]()
         self._faults = 0
         self._worker = threading.Thread(target=self._work, name="assoc-hull page", daemon=True)
         self._worker.start()
@@ -124,6 +130,7 @@ class Session:
             self._open = False
             self._awake.notify()
         self._worker.join()
+        self._reader.shutdown(cancel_futures=True)
 
     # ----------------------------------------------------------------------------------
     # In the worker.
@@ -179,6 +186,7 @@ class Session:
         if self._gesture is not None and self._gesture.client is client:
             self._end_gesture()
         self._clients = [each for each in self._clients if each is not client]
+        self._newest.pop(client, None)
 
     def _hello(self, client: Client, message: Hello) -> None:
         client.author = message.author
@@ -340,6 +348,38 @@ class Session:
         ]
         _send(client, {"t": "answer", "id": message.id, "value": found})
 
+    def _parameters(self, client: Client, message: Parameters) -> None:
+        copy = self.hull.snapshot()
+        self._read(client, message, lambda: _answer(client, message.id, describe_parameters(copy)))
+
+    def _vary(self, client: Client, message: Vary) -> None:
+        if message.apply:
+            self._require_free(client, "a variation")
+            hull = self.hull
+            self._edit(client, lambda: hull.vary(set=message.set, in_place=True).report.edit,
+                       number=message.id)  # fmt: skip
+            return
+        copy, number = self.hull.snapshot(), self.hull.state_number
+
+        def show() -> None:
+            if self._newest.get(client) != message.id:
+                return  # another value is wanted by now
+            found = ghost_of_variant(copy, message.set)
+            client.tell(pack(attrs.evolve(found.frame, state=number)))
+            _answer(client, message.id, found.words)
+
+        self._newest[client] = message.id
+        self._read(client, message, show)
+
+    def _read(self, client: Client, message: Message, job: Callable[[], None]) -> None:
+        """Do something with a copy of the hull in the thread of readers; drags go on."""
+
+        def told() -> None:
+            with self._told(client, message):
+                job()
+
+        self._reader.submit(told)
+
     def _publish(self, before: int) -> None:
         """Tell everybody what has changed since a state."""
         changed, state = self.hull.since(before), self.hull.state
@@ -374,11 +414,16 @@ class Session:
     _acts: ClassVar[dict[type[Any], Callable[[Session, Client, Any], None]]] = {
         Hello: _hello, Sign: _sign, Begin: _begin, To: _to, Commit: _commit, Cancel: _cancel,
         Apply: _apply, Undo: _undo, Redo: _redo, Check: _check,
+        Parameters: _parameters, Vary: _vary,
     }  # fmt: skip
 
 
 def _send(client: Client, message: dict[str, Any]) -> None:
     client.tell(_text(message))
+
+
+def _answer(client: Client, number: int, value: object) -> None:
+    _send(client, {"t": "answer", "id": number, "value": value})
 
 
 def _text(message: dict[str, Any]) -> str:

@@ -29,11 +29,12 @@ _WHERE = "in a frame of the page"
 
 
 class FrameKind(IntEnum):
-    """What a frame tells: all that is published, what a drag would change, what an edit changed."""
+    """What a frame tells: all that is published, what a drag would change, what an edit changed, a variant."""
 
     NET = 1
     LIVE = 2
     PUBLISHED = 3
+    GHOST = 4
 
 
 @attrs.frozen(eq=False)

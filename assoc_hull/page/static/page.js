@@ -3,7 +3,7 @@
 import {ACTIONS, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
 import {Keys} from "./keys.js";
-import {LIVE, NET, VERSION, parseFrame} from "./wire.js";
+import {GHOST, LIVE, NET, VERSION, parseFrame} from "./wire.js";
 import {Net} from "./net.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
@@ -103,11 +103,16 @@ export class Page {
       if (!hand.refused(message) && message.id) this.#refusedHere(message);
     } else if (message.t === "done") {
       hand.done(message);
+      this.panel.vary.done(message);
       store.last = message;
       this.say(`${message.name}: ${message.relofted} curves followed.`);
       store.changed("panel");
-    } else if (message.t === "answer") this.panel.problems.answer(message);
+    } else if (message.t === "answer") {
+      this.panel.problems.answer(message);
+      this.panel.vary.answer(message);
+    }
     else if (message.t === "problem") {
+      if (this.panel.vary.problem(message)) return;
       hand.problem(message);
       store.problem = message.text;
       store.changed("panel", "overlay");
@@ -137,6 +142,12 @@ export class Page {
       if (asked !== undefined) this.stats.steps.push(performance.now() - asked.time);
       if (hand.live(frame)) this.speaker.listen(store);
       hand.asked.delete(frame.seq);
+    } else if (frame.kind === GHOST) {
+      // One of a state that has passed would be compared with another hull.
+      if (frame.state === store.state) {
+        store.ghost = frame;
+        store.changed("overlay");
+      }
     } else store.publish(frame);
   }
 

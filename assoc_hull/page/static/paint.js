@@ -120,6 +120,7 @@ export function paintOverlay(view, ink) {
   view.note.textContent = noteOf(view);
   if (!net) return;
   g.lineJoin = g.lineCap = "round";
+  if (store.ghost) drawGhost(view, g, ink, store.ghost);
   if (overlay) drawMoved(view, g, ink, overlay.frame, overlay.predicted);
   const chosen = selection.curve;
   if (hover.curve !== null && hover.curve !== chosen) stroke(view, g, hover.curve, ink.ink, 1.6);
@@ -150,6 +151,20 @@ function stroke(view, g, id, colour, width) {
   g.strokeStyle = colour;
   g.lineWidth = width;
   g.stroke();
+}
+
+/** A variant that is shown, dashed. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame */
+function drawGhost(view, g, ink, frame) {
+  g.beginPath();
+  for (const [id, c] of frame.curves) {
+    const line = view.store.net?.lineOf(id);
+    if (line && view.shows(line)) view.trace(g, c, line);
+  }
+  g.strokeStyle = ink.live;
+  g.lineWidth = view.kind === "wire" ? 0.7 : 1;
+  g.setLineDash([5, 3]);
+  g.stroke();
+  g.setLineDash([]);
 }
 
 /** Stretches that moved, in three strengths by how far, and the movement itself, magnified. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame @param {boolean} predicted */

@@ -4,6 +4,7 @@ import {inflections} from "./comb.js";
 import {arcLength} from "./hermite.js";
 import {farthest} from "./paint.js";
 import {PointTable, Problems} from "./lists.js";
+import {Vary} from "./vary.js";
 
 /** @typedef {import("./page.js").Page} Page */
 
@@ -20,9 +21,9 @@ export class Panel {
   /** @param {Page} page @param {HTMLElement} element */
   constructor(page, element) {
     this.page = page;
-    this.parts = Object.fromEntries(["Point", "Curve", "Edit", "Pull", "Points", "Problems", "Signed as"].map((title) => {
+    this.parts = Object.fromEntries(["Point", "Curve", "Edit", "Pull", "Vary", "Points", "Problems", "Signed as"].map((title) => {
       const box = document.createElement("details"), head = document.createElement("summary"), heading = document.createElement("h2"), body = document.createElement("div");
-      box.open = title !== "Points" && title !== "Problems";
+      box.open = title !== "Vary" && title !== "Points" && title !== "Problems";
       box.ontoggle = () => page.store.changed("panel");
       heading.textContent = title;
       head.append(heading);
@@ -36,6 +37,7 @@ export class Panel {
     this.shownState = -1;
     this.#signature();
     this.points = new PointTable(page, this.parts.Points);
+    this.vary = new Vary(page, this.parts.Vary);
     this.problems = new Problems(page, this.parts.Problems);
     this.radii = [0, 1].map((i) => this.#radius(i));
     this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);

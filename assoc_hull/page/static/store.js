@@ -22,6 +22,8 @@ export class Store {
     this.state = 0;
     /** @type {Overlay | null} */
     this.overlay = null;
+    /** A variant that is shown, not made. @type {Frame | null} */
+    this.ghost = null;
     /** @type {Held | null} */
     this.held = null;
     /** @type {Refusal | null} */
@@ -80,7 +82,7 @@ export class Store {
     this.curves = frame.curves;
     this.places = frame.places;
     this.state = frame.state;
-    this.overlay = null;
+    this.overlay = this.ghost = null;
     const row = kept.point === null ? null : net.find(kept.point);
     const curve = [...net.curves].find(([, {name}]) => name === kept.curve)?.[0] ?? null;
     this.selection = {row, curve};
@@ -95,7 +97,7 @@ export class Store {
     for (const [id, curve] of frame.curves) this.curves.set(id, curve);
     for (const [row, place] of frame.places) this.places.set(row, place);
     this.state = frame.state;
-    this.overlay = null;
+    this.overlay = this.ghost = null;
     this.changed("hull", "overlay", "panel");
   }
 }

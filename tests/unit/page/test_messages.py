@@ -20,6 +20,8 @@ GOOD: dict[str, dict[str, Any]] = {
     "apply": {"id": 1, "name": "a", "ops": [{"op": "move", "point": "WL 1 x ST 2", "y": 1.0}]},
     "undo": {"id": 1},
     "redo": {"id": 1},
+    "parameters": {"id": 1},
+    "vary": {"id": 1, "set": {"breadth": 11.5}, "apply": True},
 }
 
 WRONG: list[tuple[str, str, Any]] = [
@@ -44,6 +46,10 @@ WRONG: list[tuple[str, str, Any]] = [
     ("hello", "author", "  "),
     ("sign", "author", 7),
     ("undo", "id", None),
+    ("vary", "set", {}),
+    ("vary", "set", {"breadth": "wide"}),
+    ("vary", "set", {"breadth": True}),
+    ("vary", "apply", 1),
 ]
 
 

@@ -21,10 +21,12 @@ from assoc_hull.page.messages import (
     Commit,
     Hello,
     Message,
+    Parameters,
     Redo,
     Sign,
     To,
     Undo,
+    Vary,
 )
 from assoc_hull.page.session import Session
 from assoc_hull.page.wire import Frame, FrameKind, unpack
@@ -355,3 +357,34 @@ def test_a_name_is_signed_from_then_on(page: Page, hull: ah.Hull) -> None:
     page.text("done")
     assert hull.history[-1].author == "Dörte"
     assert hull.author == own
+
+
+def test_a_variant_is_shown_and_then_made(page: Page, hull: ah.Hull) -> None:
+    """The list, a ghost that changes nothing, one signed step that is the variation itself."""
+    page.ask(Parameters(1))
+    listed = {each["name"]: each for each in page.text("answer")["value"]}
+    breadth = hull.particulars.breadth
+    assert abs(listed["breadth"]["value"] - breadth) < 1e-9
+    before, expected = hull.fingerprint, hull.vary(set={"breadth": breadth + 0.2}).hull
+    page.ask(Vary(2, {"breadth": breadth + 0.2}))
+    ghost, words = page.frame(FrameKind.GHOST), page.text("answer")["value"]
+    assert hull.fingerprint == before
+    assert not hull.history
+    assert ghost.state == hull.state_number
+    assert np.array_equal(ghost.spline.xyz[:3], expected.state.spline(int(ghost.curves[0])).xyz[:3])
+    assert words["volume"] == expected.hydrostatics().volume
+    page.ask(Vary(3, {"breadth": breadth + 0.2}, True))
+    assert page.text("done")["id"] == 3
+    assert hull.fingerprint == expected.fingerprint
+    assert [step.author for step in hull.history] == ["anna"]
+
+
+def test_a_variant_that_cannot_be_had_is_one_sentence(page: Page, hull: ah.Hull) -> None:
+    """Shown or made: the hull is as it was."""
+    before = hull.fingerprint
+    for number, apply in enumerate((False, True), start=5):
+        page.ask(Vary(number, {"breadth": -3.0}, apply))
+        problem = page.text("problem")
+        assert problem["id"] == number
+        assert "error of this program" not in problem["text"]
+    assert hull.fingerprint == before

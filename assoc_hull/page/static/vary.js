@@ -1,0 +1,119 @@
+// Named parameters of the hull: a wanted value is shown as a ghost, then made as one edit.
+
+import {millimetres, signed} from "./panel.js";
+
+/** @typedef {import("./page.js").Page} Page */
+/** @typedef {{name: string, unit: string, meaning: string, value: number | null, low: number | null, high: number | null, reason: string | null}} Parameter */
+
+/** @param {string} words @param {() => void} run */
+function button(words, run) {
+  const found = document.createElement("button");
+  found.type = "button";
+  found.textContent = words;
+  found.onclick = run;
+  return found;
+}
+
+/** @param {number | null} value @param {string} open */
+const bound = (value, open) => value === null ? open : value.toFixed(3);
+
+export class Vary {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    this.page = page;
+    /** @type {Parameter[]} */
+    this.found = [];
+    this.asked = 0;
+    /** @type {"list" | "ghost" | "edit"} */
+    this.what = "list";
+    this.choice = document.createElement("select");
+    this.choice.setAttribute("aria-label", "parameter of the hull");
+    this.choice.onchange = () => this.#choose();
+    this.about = document.createElement("p");
+    this.field = document.createElement("input");
+    this.field.inputMode = "decimal";
+    this.field.onkeydown = (event) => {
+      if (event.key === "Enter") this.#ask(false);
+      if (event.key === "Escape") this.drop();
+    };
+    this.words = document.createElement("p");
+    this.words.setAttribute("role", "status");
+    this.form = document.createElement("div");
+    this.form.hidden = true;
+    this.form.append(this.choice, this.about, this.field, button("Preview", () => this.#ask(false)), button("Apply", () => this.#ask(true)), button("Remove ghost", () => this.drop()));
+    box.append(button("List the parameters", () => this.list()), this.form, this.words);
+  }
+
+  list() {
+    this.what = "list";
+    this.asked = this.page.request({t: "parameters"});
+    this.words.textContent = "Looking for what may be asked …";
+  }
+
+  #chosen() { return this.found.find(({name}) => name === this.choice.value); }
+
+  #choose() {
+    const found = this.#chosen();
+    if (!found || found.value === null) return;
+    const unit = found.unit === "-" ? "" : ` ${found.unit}`;
+    this.about.textContent = `${found.meaning}: ${found.value.toFixed(3)}${unit} now, from ${bound(found.low, "any")} to ${bound(found.high, "any")}${unit}`;
+    this.field.value = found.value.toFixed(3);
+    this.field.setAttribute("aria-label", `wanted ${found.name}${unit && `,${unit}`}`);
+    this.words.textContent = "";
+  }
+
+  /** @param {boolean} apply */
+  #ask(apply) {
+    const found = this.#chosen(), value = Number(this.field.value.replace(",", ".").trim() || NaN);
+    if (!found) return;
+    if (!Number.isFinite(value)) {
+      this.words.textContent = `${this.field.value || "Nothing"} is no number: type one such as ${found.value?.toFixed(3)}`;
+      return;
+    }
+    this.drop();
+    this.what = apply ? "edit" : "ghost";
+    this.asked = this.page.request({t: "vary", set: {[found.name]: value}, apply});
+    this.words.textContent = apply ? "Varying the hull …" : "Making the ghost …";
+  }
+
+  /** Removes the ghost; an answer that is still to come shows none. */
+  drop() {
+    const {store} = this.page;
+    if (this.what === "ghost") this.asked = 0;
+    this.words.textContent = "";
+    if (!store.ghost) return;
+    store.ghost = null;
+    store.changed("overlay");
+  }
+
+  /** @param {{id: number, value: any}} message */
+  answer(message) {
+    if (message.id !== this.asked || !message.value) return;
+    if (this.what === "list") {
+      const name = this.choice.value;
+      this.found = message.value.filter((/** @type {Parameter} */ each) => each.value !== null && each.reason === null);
+      this.choice.replaceChildren(...this.found.map((each) => new Option(`${each.name}${each.unit === "-" ? "" : `, ${each.unit}`}`, each.name)));
+      if (this.found.some((each) => each.name === name)) this.choice.value = name;
+      this.form.hidden = false;
+      this.#choose();
+      this.words.textContent = `${this.found.length} parameters can be varied.`;
+      return;
+    }
+    const {normal, volume, volume_change: more, lcb, lcb_change: forward} = message.value;
+    const moved = normal === null ? "" : `largest movement ${millimetres(normal)} off the hull; `;
+    this.words.textContent = `Ghost: ${moved}V ${volume.toFixed(2)} m³ (${signed(more, 2, "m³")}), LCB ${lcb.toFixed(3)} m (${signed(forward, 4, "m")}). Nothing is changed yet.`;
+  }
+
+  /** @param {{id: number}} message */
+  done(message) {
+    if (!message.id || message.id !== this.asked) return;
+    this.list();
+  }
+
+  /** A refusal stands here, where it was asked. @param {{id: number, text: string}} message */
+  problem(message) {
+    if (!message.id || message.id !== this.asked) return false;
+    this.words.textContent = message.text;
+    return true;
+  }
+}
