@@ -148,6 +148,11 @@ class Transaction:
         """How many stages have ended."""
         return len(self._stages)
 
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """What each stage that has ended did: the very objects, as long as it stands."""
+        return tuple(each.step for each in self._stages)
+
     def lofted(self, first: int = 0) -> IntArray:
         """Give the curves that stages lofted or made, from one on, ascending, as far as alive."""
         bodies = [each.step.body for each in self._stages[first:]]
