@@ -88,7 +88,7 @@ def test_a_file_called_like_a_modification_is_a_file(
     asked = [{"op": "move", "point": "WL 2.5 x ST 5", "y": 2.41}]
     Path("pull").write_text(json.dumps(asked), encoding="utf-8")
     assert main(["edit", str(file), "pull"]) == 0
-    assert ah.open(file)["WL 2.5 x ST 5"].y == 2.41
+    assert ah.open(file).points["WL 2.5 x ST 5"].y == 2.41
 
 
 def test_words_that_are_no_numbers_are_names() -> None:
