@@ -7,7 +7,7 @@ Examples
 --------
 >>> from assoc_hull.plot.lines_plan.plain_svg import plain_svg
 >>> from assoc_hull.shipped.wigley import wigley
->>> plain_svg(wigley().state)[:24]
+>>> plain_svg(wigley())[:24]
 '<svg viewBox="0 0 9600 28'
 """
 
