@@ -51,10 +51,15 @@ def test_without_numba_numpy_serves_and_says_what_to_install(
     assert "pip install 'assoc-hull[fast]'" in engine_words()
 
 
-def test_numpy_serves_while_a_child_compiles(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_numpy_serves_while_a_child_compiles(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     """When the child is done the compiled form serves."""
-    child_that(monkeypatch, "import sys; sys.stdin.read()")
+    told = tmp_path / "told"
+    code = f"import os, time\nwhile not os.path.exists({str(told)!r}):\n    time.sleep(0.01)"
+    child_that(monkeypatch, code)
     assert engine_words() == "numpy: the compiled form is being made"
+    told.touch()
     assert wait_for_engine() == "compiled by numba"
 
 
