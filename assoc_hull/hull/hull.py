@@ -534,7 +534,10 @@ class Hull:
     def __contains__(self, address: object) -> bool:
         """Whether an address names a line, point, curve or group of the hull."""
         try:
-            handle(self.state, text(address, "the address", "in a look-up"))
+            named = text(address, "the address", "in a look-up")
+            if not named.strip():
+                return False  # nothing has no name
+            handle(self.state, named)
         except UnknownNameError:
             return False
         return True
