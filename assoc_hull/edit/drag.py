@@ -460,7 +460,7 @@ class Drag:
         if self._how == "pull":
             edit.pull(self._name, **asked, **self._asked)  # type: ignore[arg-type]
         else:
-            edit.move(self._name, **asked)
+            edit.move(self._name, lead=False, **asked)
 
     def _nothing(self, refused: tuple[str, ...]) -> Live:
         none, nowhere = np.zeros(0, np.int64), np.zeros((0, 3))

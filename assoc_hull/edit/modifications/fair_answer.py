@@ -475,7 +475,8 @@ class _Search:
                 name = next(each.name for each in asked if first in each.rows.tolist())
                 if state.rows.sort[first] == Sort.CROSSING:
                     name = address(state, first)
-                raise PointRoleError(name, kind, None, "ask for another point")
+                ways = "ask for another point, or pin this one (lead=False in insert and move)"
+                raise PointRoleError(name, kind, None, ways)
         places = _places(state, asked, rows, problem.moves[index])
         step = places - state.rows.xyz[rows]
         sub_step_count(state, PointDisplacements(rows, step, rows[:0]))  # refuses what is too far
