@@ -66,6 +66,12 @@ class Transaction:
         For how long another thread may be at work before this one is refused.
     """
 
+    led: tuple[Led, ...] = ()
+    """The lines that led."""
+
+    followed: tuple[tuple[str, float], ...] = ()
+    """Keys of the lines that followed, and how far, m."""
+
     def __init__(
         self,
         document: Document,
@@ -97,8 +103,6 @@ class Transaction:
         self._begun = self._taken_back = False
         self._stages: list[_Stage] = []
         self.notes: list[str] = []  # what is said of its stages together
-        self.led: tuple[Led, ...] = ()  # lines that led, and what followed
-        self.followed: tuple[tuple[str, float], ...] = ()
 
     @property
     def report(self) -> EditReport | None:
