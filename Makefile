@@ -18,7 +18,7 @@ export PIP_NO_INPUT := 1
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-long lint bench wheel
+.PHONY: help demo test test-long test-page lint bench wheel
 
 help:  ## say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -32,6 +32,26 @@ test: $(STAMP)  ## all tests and docstring examples, on two processes
 test-long: $(STAMP)  ## the tests again, with the forms that take long
 	ASSOC_HULL_LONG=1 $(BIN)/python -m pytest -n 2 $(ARGS)
 
+# The browser is Debian's; name another with `make test-page BROWSER=/path`.
+BROWSER ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
+
+test-page: $(VENV)/.page  ## the fairing page in a real browser, on two processes
+	@test -n "$(BROWSER)" || { echo "error: no browser was found: apt-get install chromium," \
+		"or name one: make test-page BROWSER=/path" >&2; exit 2; }
+	@if command -v npm >/dev/null && $(MAKE) --no-print-directory $(NPM)/.installed; then \
+		$(NPM)/node_modules/.bin/tsc -p tests/browser/tsconfig.json; \
+		else echo "npm is missing: types and accessibility are NOT checked"; fi
+	ASSOC_HULL_BROWSER="$(BROWSER)" $(BIN)/python -m pytest -n 2 tests/browser $(ARGS)
+
+# Nothing of it is shipped: it looks at the types of the page's modules, and at its accessibility.
+NPM := build/npm
+
+$(NPM)/.installed: tests/browser/package-lock.json
+	mkdir -p $(NPM)
+	cp tests/browser/package.json tests/browser/package-lock.json $(NPM)
+	cd $(NPM) && npm ci --silent --no-audit --no-fund
+	@touch $@
+
 lint: $(STAMP)  ## rules of style, formatting, imports and types
 	$(BIN)/python -m ruff check .
 	$(BIN)/python -m ruff format --check .
@@ -44,6 +64,10 @@ bench: $(STAMP)  ## the benchmarks
 wheel: $(STAMP)  ## the wheel, in dist
 	rm -rf dist
 	$(BIN)/python -m build --wheel --no-isolation --outdir dist
+
+$(VENV)/.page: requirements/page.txt $(STAMP)
+	$(BIN)/python -m pip install --quiet --requirement requirements/page.txt
+	@touch $@
 
 $(STAMP): requirements/ci.txt pyproject.toml
 	@test -n "$(PYTHON)" || { echo "error: no Python 3.11 or newer with venv was found;" \

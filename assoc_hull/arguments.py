@@ -13,6 +13,7 @@ Examples
 from __future__ import annotations
 
 import os
+import re
 import reprlib
 from collections.abc import Callable, Collection, Iterable
 from enum import Enum
@@ -41,6 +42,7 @@ __all__ = [
     "place",
     "places",
     "plain",
+    "plain_name",
     "positive",
     "regular_file",
     "shown",
@@ -79,6 +81,29 @@ def shown(value: object) -> str:
 def shown_name(value: object) -> str:
     """Give what was asked for as a name, short if it is none."""
     return value if isinstance(value, str) and len(value) < 100 else shown(value)
+
+
+_NUMBER = re.compile(r"(\d+)(?:[.,](\d+))?")
+_GAP = re.compile(r"(?<![\d\s])\s+|\s+(?![\d\s])")
+
+
+def plain_name(name: str) -> str:
+    """Give a name as it is compared with others where none is found as it was written.
+
+    Spaces, upper and lower case, a comma for the point and zeros at the end do not matter.
+
+    Examples
+    --------
+    >>> from assoc_hull.arguments import plain_name
+    >>> plain_name("wl 0,50 X  ST07") == plain_name("WL 0.5 x ST 7")
+    True
+    """
+
+    def digits(found: re.Match[str]) -> str:
+        part = (found[2] or "").rstrip("0")
+        return f"{found[1].lstrip('0') or '0'}{'.' * bool(part)}{part}"
+
+    return _NUMBER.sub(digits, _GAP.sub("", name.casefold()))
 
 
 def _array(values: object) -> Floats:
@@ -315,7 +340,7 @@ def all_of(values: object, kind: type[Kind], name: str, where: str = _CALL) -> l
     """
     single = isinstance(values, str | bytes) or getattr(values, "ndim", 1) == 0
     if single or not isinstance(values, Iterable):
-        remedy = f"give a list of {kind.__name__}"
+        remedy = "give a list" if kind is object else f"give a list of {kind.__name__}"
         raise WrongTypeError(f"{name} is {shown(values)}", where, remedy)
     given = cast("Iterable[object]", values)
     return [instance(each, kind, f"an item of {name}", where) for each in given]

@@ -13,11 +13,11 @@ from datetime import UTC, datetime
 from benchmarks.clock import Figure
 
 NAMES = (
-    "full_reloft", "one_edit", "edits", "drags", "drag_session", "start", "session", "hydrostatics",
-    "variation_methods", "variants", "form_curves", "created_hulls", "biarcs", "production_arcs",
-    "classical_splines",
-    "conformal_sections", "curvature_regions", "surface_fit", "cad_files", "cad_slicing",
-    "closed_mesh", "doctor", "fairing", "fair_edits", "leads",
+    "full_reloft", "one_edit", "edits", "drags", "drag_session", "start", "session",
+    "long_session", "hydrostatics", "variation_methods", "variants", "form_curves",
+    "created_hulls", "biarcs", "production_arcs", "classical_splines", "conformal_sections",
+    "curvature_regions", "surface_fit", "cad_files", "cad_slicing", "closed_mesh", "doctor",
+    "fairing", "fair_edits", "leads", "page",
 )  # fmt: skip
 
 

@@ -4,7 +4,8 @@
 field may move, by a seed, and pulls each by 20 and 50 mm in turns, inwards or outwards; and leads
 one of its waterlines or buttocks through the place: the plain field over a span between Lpp / 60
 and Lpp / 10, the fair answer over Lpp / 4. New sign changes are counted over all lines of the hull,
-at lobes of .2 and of 1 degree.
+at lobes of .2 and of 1 degree. After fair pulls and windows that are faired at such points, the
+lines are counted that `hull.fairness` calls unfair.
 """
 
 from __future__ import annotations
@@ -17,11 +18,12 @@ import attrs
 import numpy as np
 
 import assoc_hull as ah
+from assoc_hull.analysis.fairness.batten_problem import BattenProblem
 from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.net_battens import net_battens
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import AssocHullError
-from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.model.address import address as address_of
 from assoc_hull.model.kinds import Sort
@@ -29,7 +31,7 @@ from assoc_hull.model.tables import HullState
 from benchmarks.clock import Figure
 from benchmarks.ships import duisburg_test_case
 
-__all__ = ["Tally", "figures", "main", "measure", "sign_changes"]
+__all__ = ["Tally", "called", "figures", "main", "measure", "sign_changes"]
 
 SHIPS: dict[str, Callable[[], ah.Hull | None]] = {
     "carrier": ah.examples.bulk_carrier_207k,
@@ -40,6 +42,9 @@ GOALS = {"carrier": (3, 0), "series60": (14, 2), "dtc": (15, 8)}
 """Of 48 edits, and of the 24 by 20 mm: how many may gain a sign change."""
 
 _AMOUNTS = (0.02, 0.05)
+_WINDOW, _WINDOW_NOISE = (20.0, 6.0), 1.6e-3
+"""m."""
+
 _FREE = 0.3
 """|U^T n|, and more, of the points that are drawn."""
 
@@ -77,13 +82,51 @@ def sign_changes(state: HullState) -> dict[str, tuple[int, int]]:
     return dict(zip(keys, zip(small, large, strict=True), strict=True))
 
 
+def _drawn_from(problem: BattenProblem, state: HullState) -> IntArray:
+    """Give the points that edits are drawn from."""
+    crossing = state.rows.sort[problem.rows] == Sort.CROSSING
+    found: IntArray = np.sort(problem.rows[crossing & (problem.freedom > _FREE)])
+    return found
+
+
+def called(hull: ah.Hull, count: int, seed: int = 3) -> dict[str, tuple[int, int]]:
+    """Count the lines called unfair, of all, over edits, each done on the hull as it was."""
+    state, rng = hull.document.state, np.random.default_rng(seed)
+    chosen = _drawn_from(net_battens(state), state)
+    found = {"as she is": _unfair(hull), "fair pulls": (0, 0), "faired windows": (0, 0)}
+    for turn in range(count):
+        address = address_of(state, int(chosen[rng.integers(len(chosen))]))
+        amount = _AMOUNTS[turn % 2] * float(rng.choice([-1.0, 1.0]))
+        window = hull.fair_window(at=address, radius=_WINDOW)
+        window.to(noise=_WINDOW_NOISE)
+        window.commit()
+        found["faired windows"] = _sum(found["faired windows"], _unfair(hull))
+        hull.undo()
+        try:
+            with hull.edit("a drawn one") as edit:
+                edit.pull(address, amount, fair=True)
+        except AssocHullError:
+            continue
+        found["fair pulls"] = _sum(found["fair pulls"], _unfair(hull))
+        hull.undo()
+    return found
+
+
+def _unfair(hull: ah.Hull) -> tuple[int, int]:
+    table = hull.fairness()
+    return len({place.line for place in table.unfair}), len(set(table.lines))
+
+
+def _sum(first: tuple[int, int], second: tuple[int, int]) -> tuple[int, int]:
+    return first[0] + second[0], first[1] + second[1]
+
+
 def measure(hull: ah.Hull, count: int, seed: int = 3) -> dict[str, Tally]:
     """Carry out the edits, each on the hull as it was."""
     state, rng = hull.document.state, np.random.default_rng(seed)
     before, print_before = sign_changes(state), hull.fingerprint
     problem = net_battens(state)
-    crossing = state.rows.sort[problem.rows] == Sort.CROSSING
-    chosen = np.sort(problem.rows[crossing & (problem.freedom > _FREE)])
+    chosen = _drawn_from(problem, state)
     moves = dict(zip(problem.rows.tolist(), problem.moves, strict=True))
     names = [f"{kind}, {way}" for kind in ("pull", "re-shape") for way in ("plain", "fair")]
     found = {name: Tally() for name in names}
@@ -171,7 +214,18 @@ def figures(quick: bool = False) -> list[Figure]:
             Figure(f"{name}: new sign changes, fair over plain", share),
             Figure(f"{name}: a fair pull over a plain one, time", float(time)),
         ]
-    return found
+    return [*found, *_verdicts(6 if quick else 24)]
+
+
+def _verdicts(count: int) -> Iterator[Figure]:
+    """Tell the part of lines that is called unfair, as hulls are and after fair edits."""
+    ships = {"wigley": ah.examples.wigley, **SHIPS}
+    for name in ("wigley", "carrier", "series60"):
+        hull = ships[name]()
+        assert hull is not None, "it comes with the package"
+        for how, (lines, of) in called(hull, count).items():
+            title = f"{name}, {how}: lines called unfair, {lines} of {of}"
+            yield Figure(title, 100.0 * lines / of, "%", 5, "most")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -187,6 +241,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             continue
         for kind, tally in measure(hull, chosen.count).items():
             print(f"{name}, {kind}: {tally}", flush=True)
+        for how, (lines, of) in called(hull, chosen.count).items():
+            print(f"{name}, {how}: {lines} of {of} lines called unfair", flush=True)
     return 0
 
 

@@ -50,7 +50,11 @@ def figures(quick: bool = False) -> list[Figure]:
         found += _of_clean("DTC", dtc)
         found += _faired("DTC", dtc, 2e-3)
     found += _faired("carrier", ships["carrier"], 1.6e-3)
-    return [*found, *_times(ships["carrier"], 2 if quick else 7)]
+    rounds = 2 if quick else 7
+    found += _times("carrier", ships["carrier"], rounds, {"stated": 15, "auto": 60})
+    large = ah.examples.wigley(stations=118, waterlines=53)
+    found += _times("a net of 170 curves", large, rounds, {})
+    return [*found, *_window(ships["carrier"])]
 
 
 def _taken_out(name: str, hull: ah.Hull, width: float) -> Iterator[Figure]:
@@ -111,8 +115,8 @@ def _faired(name: str, hull: ah.Hull, noise: float) -> Iterator[Figure]:
     hull.undo()
 
 
-def _times(hull: ah.Hull, rounds: int) -> Iterator[Figure]:
-    """Time the carrier: the whole act, beside one factorisation of its matrix."""
+def _times(name: str, hull: ah.Hull, rounds: int, goals: dict[str, int]) -> Iterator[Figure]:
+    """Time a net: the whole act, beside one factorisation of its matrix."""
     problem, noise = net_battens(hull.state), 1.6e-3 / np.sqrt(3.0)
     error = uniform_noise(len(problem.rows), 1.6e-3) * problem.freedom
     noisy = problem.shifted(error)
@@ -130,14 +134,17 @@ def _times(hull: ah.Hull, rounds: int) -> Iterator[Figure]:
         "auto": lambda: whole(None),
     }
     times = side_by_side(jobs, rounds, {"factor": 5})
-    yield Figure("fairing: carrier, one sparse factorisation", 1e3 * times["factor"], "ms")
-    yield Figure("fairing: carrier, the solution within bounds", 1e3 * times["solve"], "ms")
-    for name, goal in (("stated", 15), ("auto", 60)):
-        yield Figure(
-            f"fairing: carrier, the edit and its undo, noise {name}", 1e3 * times[name], "ms"
-        )
-        ratio = times[name] / times["factor"]
-        yield Figure(f"fairing: carrier, noise {name} / factorisation", ratio, "x", goal, "most")
+    title = f"fairing: {name}, "
+    yield Figure(f"{title}one sparse factorisation", 1e3 * times["factor"], "ms")
+    yield Figure(f"{title}the solution within bounds", 1e3 * times["solve"], "ms")
+    for way in ("stated", "auto"):
+        yield Figure(f"{title}the edit and its undo, noise {way}", 1e3 * times[way], "ms")
+        ratio = times[way] / times["factor"]
+        yield Figure(f"{title}noise {way} / factorisation", ratio, "x", goals.get(way), "most")
+
+
+def _window(hull: ah.Hull) -> Iterator[Figure]:
+    """Time a step of a window that a hand holds."""
     window = hull.fair_window(at="WL 9 x ST 17", radius=(20.0, 6.0))
     steps = iter(range(10**6))
     times = side_by_side({"step": lambda: window.to(noise=1e-3 + 1e-9 * next(steps))}, 50)

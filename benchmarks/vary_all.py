@@ -48,6 +48,44 @@ AMOUNTS: dict[str, tuple[float, float]] = {
 
 
 @attrs.frozen
+class Faired:
+    """The same variation with its followers faired.
+
+    Attributes
+    ----------
+    miss : float
+        Measured less asked, m or degrees.
+    after : int
+        Changes of sign of curvature more than the parent has, over all lines together.
+    more_before, more : int
+        The same over the lines that have more, by the map alone and faired.
+    worst : float
+        The largest ratio of comb integrals.
+    worst_line, left : str
+        Its line; lines that have more still.
+    points : int
+        How many moved.
+    largest : float, m
+        The farthest.
+    seconds : float
+    trouble : str
+        Why there is no variant.
+    """
+
+    miss: float = np.nan
+    after: int = 0
+    more_before: int = 0
+    more: int = 0
+    worst: float = np.nan
+    worst_line: str = ""
+    left: str = ""
+    points: int = 0
+    largest: float = np.nan
+    seconds: float = np.nan
+    trouble: str = ""
+
+
+@attrs.frozen
 class Row:
     """One variation.
 
@@ -71,6 +109,8 @@ class Row:
     seconds : float
     trouble : str
         Why there is no variant.
+    faired : Faired or None
+        None where there is no variant.
     """
 
     name: str
@@ -87,6 +127,7 @@ class Row:
     worst_line: str = ""
     seconds: float = np.nan
     trouble: str = ""
+    faired: Faired | None = None
 
     def cells(self) -> tuple[str, ...]:
         """Give the row as a table has it."""
@@ -100,6 +141,23 @@ class Row:
             f"{self.worst:.3f} {self.worst_line}", f"{self.seconds:.1f}",
         )  # fmt: skip
 
+    def faired_cells(self) -> tuple[str, ...]:
+        """Give the row of the table of variants with faired followers."""
+        found = self.faired
+        if found is None or found.trouble:
+            return (self.name, "-" if found is None else found.trouble, *[""] * 6)
+        return (
+            self.name, f"{found.miss:.0e}", f"{self.after - self.before:+d} -> {found.after:+d}",
+            f"{found.more_before} -> {found.more}", found.left, f"{found.worst:.3f} "
+            f"{found.worst_line}", f"{found.points}, {1e3 * found.largest:.1f}",
+            f"{found.seconds:.1f}",
+        )  # fmt: skip
+
+
+FAIRED_HEAD = (
+    "parameter", "missed by", "sign changes added", "on lines that gain", "left on",
+    "comb, worst", "points moved, mm", "s",
+)  # fmt: skip
 
 HEAD = (
     "parameter", "asked", "missed by", "drivers' points", "followers' points", "sign changes",
@@ -127,9 +185,30 @@ def _row(hull: ah.Hull, name: str, sense: float, parent: dict[str, LineFairness]
     seconds = time.perf_counter() - start
     fair = compare_fairness(parent, measure_fairness(found.hull.state, like=parent))
     worst = fair.worst_line
+    faired = _faired(hull, name, asked, parent)
     return Row(
         name, asked, found.report.targets[0].reached - asked, *_moved(hull.state, found),
         fair.before, fair.after, fair.median, fair.worst, worst.name if worst else "", seconds,
+        faired=faired,
+    )  # fmt: skip
+
+
+def _faired(hull: ah.Hull, name: str, asked: float, parent: dict[str, LineFairness]) -> Faired:
+    """Vary a hull with its followers faired."""
+    start = time.perf_counter()
+    try:
+        found = hull.vary(set={name: asked}, fair=True)
+    except AssocHullError as error:
+        return Faired(trouble=str(error).replace("|", "/"))
+    seconds = time.perf_counter() - start
+    fair = compare_fairness(parent, measure_fairness(found.hull.state, like=parent))
+    worst, told = fair.worst_line, found.report.faired
+    assert told is not None, "it was asked for"
+    return Faired(
+        found.report.targets[0].reached - asked, fair.added, told.before, told.after, fair.worst,
+        worst.name if worst else "",
+        ", ".join(f"{line} {was} -> {now}" for line, was, now in told.lines),
+        told.points, told.largest, seconds,
     )  # fmt: skip
 
 
@@ -180,6 +259,23 @@ def table(found: Sequence[Row]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
+def faired_table(found: Sequence[Row]) -> str:
+    """Give a table of the same variants with faired followers, and how many add no sign change."""
+    cells = [row.faired_cells() for row in found]
+    lines = [FAIRED_HEAD, tuple("---" for _ in FAIRED_HEAD), *cells]
+    had = [row for row in found if not row.trouble]
+    plain = sum(row.after <= row.before for row in had)
+    faired = [row.faired for row in had if row.faired is not None and not row.faired.trouble]
+    none, lost = sum(each.after <= 0 for each in faired), sum(not each.more for each in faired)
+    combs = [max((each.worst for each in some), default=1.0) for some in (had, faired)]
+    told = (
+        f"Of {len(had)} variants {plain} add no change of sign without fairing, {none} with it; in "
+        f"{lost} no line at all gains one. The worst comb is {combs[0]:.2f} times the parent's "
+        f"without, {combs[1]:.2f} with it."
+    )
+    return "\n".join([*(f"| {' | '.join(line)} |" for line in lines), "", told])
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the tables; write them where it is asked."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.vary_all", description=__doc__)
@@ -198,7 +294,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for sense, word in ((1.0, "as asked"), (-1.0, "the opposite signs")):
             title = f"## {hull.particulars.name}, {word}"
             print(title, file=sys.stderr, flush=True)
-            parts += [title, "", table(rows(hull, sense, names)), ""]
+            found = rows(hull, sense, names)
+            parts += [title, "", table(found), "", "The same with `fair=True`:", ""]
+            parts += [faired_table(found), ""]
     day = datetime.now(UTC).date().isoformat()
     text = "\n".join([_ABOUT.format(day=day), *parts])
     print(text)
@@ -217,6 +315,10 @@ outside the reported region are not what they were to the last bit, of drivers a
 behind the +, crossings that are computed from a driver which runs through the region, and how far
 the farthest of them moved. *Sign changes* of curvature beyond a dead band of 2e-3 1/m on the lines
 that changed, and the ratio of the integrals of the squared slope of the curvature comb.
+
+*With `fair=True`*: sign changes added over all lines, by the map alone and faired; the same over
+the lines that gain some, which are named; points that fairing moved, and the farthest. The profile
+and other boundary curves stay as the map takes them, so what they gain is left.
 """
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ from drawings.net import crossing, levels, roles
 from drawings.production import production_arcs_picture
 from drawings.sections import generated_sections
 from drawings.shifts import section_shifts
-from drawings.stern import bulk_carrier, carrier_combs, counter
+from drawings.stern import bulk_carrier, carrier_combs, counter, stern_faired, stern_heat
 from drawings.story import bossing_lines, bossing_profile
 from drawings.variant import variant_areas, variant_plan
 from drawings.variation import rounded_hat, variation_fields
@@ -179,6 +179,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "completions": completions,
     "bulk_carrier": bulk_carrier,
     "counter": counter,
+    "stern_heat": stern_heat,
+    "stern_faired": stern_faired,
     "carrier_combs": carrier_combs,
     "variation_fields": variation_fields,
     "rounded_hat": rounded_hat,
@@ -206,7 +208,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "dtc_report": dtc_report,
 }
 DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 110,
-       "container_ship_225m": 110, "dtc_report": 110, "carrier_combs": 96, "comparison": 110,
+       "container_ship_225m": 110, "dtc_report": 110, "carrier_combs": 96,
+       "counter": 116, "stern_heat": 108, "stern_faired": 108, "comparison": 110,
        "variant_plan": 110, "form_sheet": 100, "panels": 105, "closed_mesh": 105,
        "hull_plates": 62, "hull_surface": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "container_ship_225m", "dtc")
@@ -217,7 +220,22 @@ COLOURS = {
     "hull_plates": 64,
     "hull_surface": 48,
 }  # 0: all
+COLOURS |= dict.fromkeys(("carrier_combs", "counter", "stern_heat", "stern_faired"), 48)
 COLOURS |= dict.fromkeys(("form_curve", "curvature_lines", "lines_plan_dxf"), 256)
+
+
+def few_colours(image: Image.Image, count: int) -> Image.Image:
+    """Give a picture in as many colours: the commonest as they are, the others near to theirs.
+
+    The usual method drops colours of few pixels: classes of a legend, a thin blue line.
+    """
+    half = count // 2
+    found = image.getcolors(image.width * image.height) or []
+    common = [colour for _, colour in sorted(found, key=lambda each: (-each[0], each[1]))[:half]]
+    rest = image.quantize(count - half, Image.Quantize.MAXCOVERAGE).getpalette() or []
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([part for colour in common for part in colour] + rest[: 3 * (count - half)])
+    return image.quantize(palette=palette, dither=Image.Dither.NONE)
 
 
 def write(name: str) -> int:
@@ -230,7 +248,7 @@ def write(name: str) -> int:
     colours = COLOURS.get(name, 64)
     with Image.open(path) as image:
         plain = image.convert("RGB")
-        (plain.quantize(colours) if colours else plain).save(path, optimize=True)
+        (few_colours(plain, colours) if colours else plain).save(path, optimize=True)
     return path.stat().st_size
 
 

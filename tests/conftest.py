@@ -39,6 +39,9 @@ settings.register_profile(
 settings.load_profile("ci" if os.environ.get("CI") else "default")
 
 
+# They need a browser, and what drives it: `make test-page`.
+collect_ignore = [] if os.environ.get("ASSOC_HULL_BROWSER") else ["browser"]
+
 IN_MEMORY = Path("/dev/shm")
 ROOM = 4_000_000_000
 """Bytes that must be free in memory before files of tests are laid there."""

@@ -122,6 +122,21 @@ def test_a_bad_list_of_names_is_found(text: str, fault: str) -> None:
     assert public_names(Path("module.py"), ast.parse(text)) == [fault]
 
 
+def test_what_locks_is_left_open_by_an_interrupt(parsed: dict[Path, ast.Module]) -> None:
+    """Between the last statement of a ``with lock`` and the release an interrupt leaves it taken.
+
+    A thread that comes to its own lock once more would wait for itself for ever: `Gate` is what
+    locks.
+    """
+    found = {
+        module_id(path)
+        for path, tree in parsed.items()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Attribute | ast.Name) and ast.unparse(node) == "threading.Lock"
+    }
+    assert found == set()
+
+
 def test_no_file_holds_on_one_machine_only() -> None:
     """No absolute path and no address of a package registry stands in any file."""
     found = {

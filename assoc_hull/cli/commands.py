@@ -30,6 +30,7 @@ from assoc_hull.cli.inspection import (
     add_why,
 )
 from assoc_hull.cli.make_hull import add_classical, add_create, add_example_and_import
+from assoc_hull.cli.page import add_page
 from assoc_hull.cli.panels import add_panels
 from assoc_hull.cli.plates import add_plates
 from assoc_hull.cli.problems import UsageError, check_target
@@ -184,6 +185,7 @@ _COMMANDS = (
     add_stability,
     add_resistance,
     add_transform,
+    add_page,
     add_panels,
     add_vary,
     add_shift_and_swing,

@@ -145,6 +145,7 @@ def preview_words(hull: Hull, found: Preview, indent: str = "  ") -> Iterator[st
     yield from _remains(hull, report, indent)
     yield from _displaces(hull, found, indent)
     yield from lists(report, indent)
+    yield from _beside(hull, found.plain, indent)
 
 
 def _group(name: str, lines: Sequence[LineChange], indent: str) -> Iterator[str]:
@@ -183,6 +184,18 @@ def _remains(hull: Hull, report: EditReport, indent: str) -> Iterator[str]:
         names = [f"{book.curve_name(book.keys[key].curve)} ({count})" for key, count in added]
         yield wrap_text("on", names, indent + "  ")
     yield f"{indent}largest gap  {1e3 * report.largest_gap:.2f} mm"
+
+
+def _beside(hull: Hull, plain: Preview | None, indent: str) -> Iterator[str]:
+    """Say what the plain field would do in place of the fair answer."""
+    if plain is None:
+        return
+    if plain.report is None:
+        yield f"{indent}with the plain field it would be refused: {'; '.join(plain.refused)}"
+        return
+    yield f"{indent}with the plain field"
+    yield f"{indent}  would change {len(plain.lines)} lines"
+    yield from _remains(hull, plain.report, indent + "  ")
 
 
 def _displaces(hull: Hull, found: Preview, indent: str) -> Iterator[str]:
@@ -282,10 +295,22 @@ def _try(arguments: argparse.Namespace, name: str, changes: Changes) -> int:
         return _refused(arguments, name, found.refused)
     facts = _facts(found.report, found.why, found.fingerprint, None) | {
         "lines": found.lines, "volume_change": found.volume_change, "lcb_change": found.lcb_change,
+        "plain": _plain_facts(found.plain),
     }  # fmt: skip
     told = [*preview_words(hull, found), *why_words(found.why), "nothing written"]
     emit(arguments, facts, "\n".join([name, *told]))
     return 0
+
+
+def _plain_facts(plain: Preview | None) -> dict[str, Any] | None:
+    """Give what the plain field would do; None where nothing is asked to be answered fairly."""
+    if plain is None:
+        return None
+    report = plain.report
+    return {
+        "refused": plain.refused, "report": report, "lines": plain.lines,
+        "inflections": None if report is None else report.inflections,
+    }  # fmt: skip
 
 
 def _modify_all(edit: Edit, changes: Changes, file: Path) -> None:

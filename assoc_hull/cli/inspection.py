@@ -17,6 +17,7 @@ from assoc_hull.cli.hull_words import hull_facts, hull_words
 from assoc_hull.cli.output import can_print, emit, progress, why_document
 from assoc_hull.cli.problems import UsageError, check_other_target, check_target
 from assoc_hull.edit.explain.causes import Why
+from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import open as open_hull
 from assoc_hull.model.program.engine import engine_words, wait_for_engine
 
@@ -357,9 +358,12 @@ def _hops(arguments: argparse.Namespace) -> tuple[int, int]:
 def add_plot(commands: Commands) -> None:
     """Add ``plot``."""
     parser = add_command(
-        commands, "plot", "draw the lines plan, or lines with their curvature combs", _plot,
+        commands, "plot", "draw lines, their curvature combs, or what an edit moved", _plot,
         """assoc-hull plot ship.hull -o lines.pdf --paper A1
+        assoc-hull plot ship.hull -o stern.pdf --heat residual --x -5 50
         assoc-hull plot ship.hull -o combs.svg --combs "WL 0.5" "BTK 0.44"
+        assoc-hull plot ship.hull -o combs.pdf --view combs --heat ratio
+        assoc-hull plot ship.hull -o moved.pdf --before old.hull --exaggerate 50
         assoc-hull plot ship.hull -o definitions.pdf --view definitions""",
     )  # fmt: skip
     add_hull(parser)
@@ -371,29 +375,65 @@ def add_plot(commands: Commands) -> None:
         "--combs", nargs="+", metavar="LINE", help="draw these lines with their curvature"
     )
     parser.add_argument(
-        "--view", choices=("lines", "definitions"), default="lines",
-        help="the lines, or the definitions of a created hull with their curvature",
+        "--view", choices=("lines", "combs", "definitions"), default="lines",
+        help="the lines, all of them with their curvature, or the definitions of a created hull "
+        "with theirs",
+    )  # fmt: skip
+    parser.add_argument(
+        "--heat", choices=("residual", "ratio"),
+        help="colour lines by how far a batten springs off each point, mm, or by how far from "
+        "those of the lines beside, over the usual",
+    )  # fmt: skip
+    parser.add_argument(
+        "--x", nargs=2, type=float, metavar=("AFT", "FORE"), help="draw this stretch only, m"
+    )
+    parser.add_argument(
+        "--before", type=Path, metavar="OTHER", help="draw what moved since that hull"
+    )
+    parser.add_argument(
+        "--exaggerate", type=float, metavar="TIMES",
+        help="with --before: draw movements along the hull's normal so many times as large",
     )  # fmt: skip
     add_json(parser)
 
 
 def _plot(arguments: argparse.Namespace) -> int:
-    from assoc_hull.plot.lines_plan.plan import lines_plan
-
     check_target(arguments.out, PICTURE_ENDINGS)
-    if arguments.combs and arguments.view != "lines":
-        raise UsageError("--combs needs --view lines, in plot; leave one out")
+    _refuse_together(arguments)
     hull = open_hull(arguments.hull)
     with progress(f"drawing {arguments.out}"):
-        if arguments.view == "definitions":
-            from assoc_hull.plot import definition_curves
-
-            definition_curves(hull.state, arguments.out, paper=arguments.paper)
-        elif arguments.combs:
-            from assoc_hull.plot.lines_plan.curvature_combs import curvature_combs
-
-            curvature_combs(hull, arguments.combs, arguments.out, paper=arguments.paper)
-        else:
-            lines_plan(hull, arguments.out, paper=arguments.paper)
+        _draw(hull, arguments)
     emit(arguments, {"saved": str(arguments.out)}, f"written: {arguments.out}")
     return 0
+
+
+def _refuse_together(arguments: argparse.Namespace) -> None:
+    """Refuse options that go with another picture."""
+    if arguments.combs and arguments.view != "lines":
+        raise UsageError("--combs needs --view lines, in plot; leave one out")
+    if arguments.exaggerate is not None and arguments.before is None:
+        raise UsageError("--exaggerate without --before, in plot; add --before OTHER")
+    other = arguments.combs or arguments.view != "lines" or arguments.heat
+    if arguments.before is not None and other:
+        raise UsageError("--before draws what moved, in plot; leave the other picture out")
+    if arguments.view == "definitions" and (arguments.heat or arguments.x):
+        raise UsageError("--heat and --x go with lines and combs, in plot; leave them out")
+
+
+def _draw(hull: Hull, arguments: argparse.Namespace) -> None:
+    """Draw the picture that was asked for."""
+    out, paper, heat = arguments.out, arguments.paper, arguments.heat
+    x = None if arguments.x is None else (arguments.x[0], arguments.x[1])
+    if arguments.view == "definitions":
+        from assoc_hull.plot import definition_curves
+
+        definition_curves(hull.state, out, paper=paper)
+    elif arguments.before is not None:
+        other = open_hull(arguments.before)
+        other.plot.comparison(hull, out, paper=paper, exaggerate=arguments.exaggerate, x=x)
+    elif arguments.combs:
+        hull.plot.curvature_combs(arguments.combs, out, paper=paper, heat=heat, x=x)
+    elif arguments.view == "combs":
+        hull.plot.combs(out, paper=paper, heat=heat, x=x)
+    else:
+        hull.plot.lines_plan(out, paper=paper, heat=heat, x=x)

@@ -16,6 +16,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.explain.causes import Why
+from assoc_hull.graph.gate import Gate
 from assoc_hull.io.reports import Tell, no_progress
 
 __all__ = ["can_print", "emit", "plain", "progress", "progress_bar", "say", "why_document"]
@@ -151,13 +152,11 @@ def progress_bar(what: str, *, hidden: bool) -> Iterator[Tell]:
 def _patiently(shown: Callable[[], contextlib.AbstractContextManager[Any]]) -> Iterator[None]:
     """Enter a context after some time, from another thread, if work is not done by then."""
     with contextlib.ExitStack() as stack:
-        lock, done = threading.Lock(), threading.Event()
+        gate, done = Gate(), threading.Event()
 
         def show() -> None:
             context = shown()
-            with lock:
-                if not done.is_set():
-                    stack.enter_context(context)
+            gate.alone(lambda: None if done.is_set() else stack.enter_context(context))
 
         timer = threading.Timer(_PATIENCE, show)
         timer.daemon = True
@@ -166,5 +165,4 @@ def _patiently(shown: Callable[[], contextlib.AbstractContextManager[Any]]) -> I
             yield
         finally:
             timer.cancel()
-            with lock:
-                done.set()
+            gate.alone(done.set)

@@ -13,6 +13,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+import attrs
+
 from assoc_hull.arguments import shown
 from assoc_hull.cli.arguments import (
     Commands,
@@ -36,6 +38,7 @@ from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
     from assoc_hull.hull.variants import Jumboised, Shifted
+    from assoc_hull.variation.faired_followers import FairedFollowers
 
 __all__ = [
     "add_compare",
@@ -155,6 +158,11 @@ def add_vary(commands: Commands) -> None:
         help="how far a driver may leave its exact image, m (default: 0.002)",
     )  # fmt: skip
     parser.add_argument(
+        "--fair", type=float, metavar="M", nargs="?", const=True,
+        help="let points that moved move once more, so that lines get no new changes of curvature "
+        "sign; how far at most, m (without a number: 0.02)",
+    )  # fmt: skip
+    parser.add_argument(
         "--list",
         action="store_true",
         help="show present values and what may be asked; write nothing",
@@ -179,10 +187,13 @@ def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
         "targets": report.targets, "rounds": report.rounds, "regions": report.regions,
         "drivers": report.drivers, "added": report.added, "fingerprint": hull.fingerprint,
         "refused": False, "saved": saved, "script": report.script, "aim": report.aim,
+        "faired": _faired(report.faired),
     }  # fmt: skip
     told = [report.edit.name, *(f"  {each}" for each in report.targets)]
     if report.aim is not None:
         told += [f"  {each}" for each in str(report.aim).splitlines()]
+    if report.faired is not None:
+        told.append(f"  {report.faired}")
     told += [edit_words(hull, report.edit), f"written: {saved}"]
     emit(arguments, facts, "\n".join(told))
     return 0
@@ -200,6 +211,13 @@ def _list(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _faired(found: FairedFollowers | None) -> dict[str, Any] | None:
+    """Give what fairing has done, without the moves of all points."""
+    if found is None:
+        return None
+    return attrs.asdict(found, filter=lambda field, _: field.name != "steps")
+
+
 def _script(arguments: argparse.Namespace) -> dict[str, Any]:
     """Put together what is asked for; options go before what the file says."""
     from assoc_hull.variation.request import read_script
@@ -210,7 +228,7 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
         if given:
             script[key] = {**_held(script, key, arguments), **given}
     _reach(script, arguments)
-    for key in ("drivers", "stations", "planes", "tolerance", "name"):
+    for key in ("drivers", "stations", "planes", "tolerance", "fair", "name"):
         value = getattr(arguments, key)
         if value is not None:
             script[key] = value

@@ -124,6 +124,17 @@ class GivenObjects:
             )
         return name
 
+    def group_named(self, name: object) -> str | None:
+        """Give the group that a name means, however it is written; None if it means none."""
+        names = self.tables.groups.name.data
+        if not isinstance(name, str) or name in names:
+            return name if isinstance(name, str) else None
+        try:
+            found = resolve_address(self.tables, name)
+        except (UnknownNameError, BadInputError):
+            return None
+        return str(names[found.group]) if found.line < 0 else None
+
     def point(self, point: Point | str) -> tuple[int, int]:
         """Give the row of a point and its side: 0 on its first curve, 1 on its second."""
         found = self._found(point, Point, "point")
@@ -192,12 +203,12 @@ class GivenObjects:
         for each in drivers:
             if isinstance(each, Group) and each.home is not tables.live_tables:
                 raise ForeignPointError(repr(each))
-            name = each.name if isinstance(each, Group) else each
-            if isinstance(name, str) and name in names:
+            name = each.name if isinstance(each, Group) else self.group_named(each)
+            if isinstance(each, Group) or name is not None:
                 live = tables.live("lines")
-                found += live[tables.lines.group[live] == names.index(name)].tolist()
+                found += live[tables.lines.group[live] == names.index(str(name))].tolist()
             else:
-                found.append(self.line(name))
+                found.append(self.line(each))
         return found
 
     def own(self, handle: Group | Line | Curve | Point | Crossing) -> None:

@@ -40,11 +40,13 @@ __all__ = [
     "fixed_places",
     "flat_distance",
     "land_points",
+    "level_with_flats",
     "move_normal",
     "on_flat",
     "on_profile",
     "quintic_fade",
     "row_spacing",
+    "spacing_along",
     "station_spacing",
     "sub_step_count",
     "unreached",
@@ -60,6 +62,12 @@ BoolArray = np.typing.NDArray[np.bool_]
 
 _IN_PLANE = 1e-9
 """Points as near to a plane (m) lie in it."""
+
+_LEVEL, _LEVEL_SLOPE = 1e-3, 2e-3
+"""Within such a distance, m, and such a slope to it a hull runs on in the plane of a flat."""
+
+_ALONG = 0.02
+"""A spacing seen along x below this part of that in space is none: the lines run along x."""
 
 
 def quintic_fade(part: FloatArray) -> FloatArray:
@@ -332,6 +340,19 @@ def _in_flat_planes(state: HullState, xyz: FloatArray) -> BoolArray:
     return found
 
 
+def level_with_flats(state: HullState, rows: IntArray, normals: FloatArray) -> BoolArray:
+    """Tell which points (k,), with the hull's normals there (k, 3), run on in the plane of a flat.
+
+    Those of a hull that was measured lie beside it by the last digit of the measurement.
+    """
+    found = np.zeros(len(rows), np.bool_)
+    for *normal, offset in _flat_planes(state):
+        off = np.abs(state.rows.xyz[rows] @ np.array(normal) - offset)
+        slope = np.linalg.norm(np.cross(normals, normal), axis=1)
+        found |= (off < _LEVEL) & (slope < _LEVEL_SLOPE)
+    return found
+
+
 def _flat_planes(state: HullState) -> list[tuple[float, float, float, float]]:
     """Give the planes in which flats lie, each once: normal and offset, m."""
     lines = state.lines
@@ -405,20 +426,45 @@ def move_normal(ground: FieldContext, rows: IntArray, amount: FloatArray) -> Poi
 
 
 def row_spacing(state: HullState, place: FloatArray) -> float:
-    """Give the median distance, seen along x, of the nearest points from a place, m."""
+    """Give the median distance, seen along x, of the nearest points from a place, m.
+
+    Where most lines run along x, as on a parallel side, it is that of the lines across.
+    """
+    chord = _chords_near(state, place)
+    gap, whole = _lengths(chord[:, 1:]), _lengths(chord)
+    chosen = gap > 1e-6
+    found = float(np.median(gap[chosen])) if chosen.any() else 1.0
+    across = gap > 0.5 * whole
+    if across.any() and found < _ALONG * float(np.median(whole)):
+        found = max(found, float(np.median(gap[across])))
+    return found
+
+
+def spacing_along(state: HullState, place: FloatArray) -> float:
+    """Give the median distance along x of the points that lie nearest to a place, m; 0 if none."""
+    chord = _chords_near(state, place)
+    step = np.abs(chord[:, 0])
+    along = step > 0.5 * _lengths(chord)
+    return float(np.median(step[along])) if along.any() else 0.0
+
+
+def _chords_near(state: HullState, place: FloatArray) -> FloatArray:
+    """Give the chords (k, 3), m, on both sides of a place of the curves that come near it."""
     rows = state.live("rows")
     step = state.rows.xyz[rows] - place
     near = rows[np.argsort((step * step).sum(axis=1), kind="stable")[:24]]
     curves = np.unique(state.rows.curve[near].ravel())
-    gaps: list[float] = []
+    found = [np.zeros((0, 3))]
     for curve in curves[curves >= 0].tolist():
-        spline: SplineBatch = state.spline(curve)
-        chord = np.diff(spline.xyz[:, 1:], axis=0)
-        length = np.sqrt((chord * chord).sum(axis=1))
-        at = int(np.argmin(((spline.xyz - place) ** 2).sum(axis=1)))
-        gaps += length[max(at - 1, 0) : at + 1].tolist()
-    positive = [gap for gap in gaps if gap > 1e-6]
-    return float(np.median(positive)) if positive else 1.0
+        xyz = state.spline(curve).xyz
+        at = int(np.argmin(((xyz - place) ** 2).sum(axis=1)))
+        found.append(np.diff(xyz[max(at - 1, 0) : at + 2], axis=0))
+    return np.concatenate(found)
+
+
+def _lengths(steps: FloatArray) -> FloatArray:
+    found: FloatArray = np.sqrt((steps * steps).sum(axis=1))
+    return found
 
 
 def station_spacing(state: HullState) -> float:

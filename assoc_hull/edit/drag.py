@@ -251,6 +251,9 @@ class Drag:
         The coordinates it may be moved in; empty for one that is computed, which may be pulled.
     normal : (3,) or None
         Outward unit normal of the hull there; None where it is not known.
+    radius : (float, float) or None, m
+        Of a pull: how far along the length and the girth it is felt; None of a move, and where the
+        hull cannot be pulled.
     """
 
     def __init__(
@@ -285,9 +288,24 @@ class Drag:
         self.normal: FloatArray | None = normal.copy() if (normal != 0.0).any() else None
         freeze(self.start, *([] if self.normal is None else [self.normal]))
         self._row, self._quick = row, _QuickWay.of(document, state, row, how, radius, across_flats)
+        self.radius = self._felt(state, radius, across_flats)
         self._published = HullShapes.of(state)
         self._number, self._last = state.number, dict[str, float]()
         self._over, self._stop_asked, self._turn = False, False, WriteLock()
+
+    def _felt(
+        self, state: HullState, radius: tuple[float, float] | None, across_flats: bool
+    ) -> tuple[float, float] | None:
+        """Give how far a pull is felt; None where each `to` will say why it is refused."""
+        if self._how == "move":
+            return None
+        field = None if self._quick is None else self._quick.pull
+        try:
+            if field is None:
+                field = pull_field(state, self._row, 1.0, radius, across_flats=across_flats)
+        except AssocHullError:
+            return None
+        return field.radius
 
     def __enter__(self) -> Self:
         return self

@@ -40,7 +40,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal, PickedRows, each_once
 from assoc_hull.graph.network import Evaluation, distinct
 from assoc_hull.graph.run_update import UpdatePass, run_update
-from assoc_hull.model.change import TableChange
+from assoc_hull.model.change import TableChange, net_bits
 from assoc_hull.model.index import build_index, index_columns
 from assoc_hull.model.network import HullNetwork, moved_curves, placed
 from assoc_hull.model.node import Node
@@ -472,11 +472,16 @@ class ProgramEdit:
         return Step.told_later(name, self.journal, changed, curves, notes)
 
     def change(self) -> TableChange:
-        """Give what the edit has changed."""
-        numbers = self.numbers
-        return change_of_shape(
+        """Give what the edit has changed: of numbers, and of how far fairing took points."""
+        numbers, faired = self.numbers, self.document.state.rows.faired
+        found = change_of_shape(
             numbers.runner, numbers.published.values, numbers.values, self.runs, self.ridden
         )
+        if any(each is faired for each in self.journal.columns()):
+            rows, bits = net_bits(self.journal, faired)
+            if len(rows):
+                found = attrs.evolve(found, bits={**found.bits, "rows.faired": (rows, bits)})
+        return found
 
     def publish(self) -> None:
         """Keep the numbers of what has just been published."""

@@ -34,7 +34,7 @@ from assoc_hull.edit.modifications import reshape as _reshape
 from assoc_hull.edit.modifications import roles as _renew
 from assoc_hull.edit.modifications import roles as _set_role
 from assoc_hull.edit.modifications import spread as _spread
-from assoc_hull.edit.recording import Said, Settings, recorded
+from assoc_hull.edit.recording import Said, Script, Settings, VariedValues, recorded
 from assoc_hull.edit.recut import transform as _transform
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.space_map import Jacobian, PointMapping, space_map
@@ -203,6 +203,12 @@ class Edit:
     def active(self) -> bool:
         """Whether the ``with`` block is open."""
         return self._held.active
+
+    @property
+    def asked(self) -> Script:
+        """What it was asked for so far, as data."""
+        held = self._held
+        return Script.of(held.script, held.settings, VariedValues(), VariedValues())
 
     def _note(self, change: dict[str, Said]) -> None:
         """Keep a modification that was asked for, as data."""
@@ -438,7 +444,7 @@ class Edit:
         >>> with hull.edit("5 mm out, and the hull with it") as edit:
         ...     edit.lead("WL 2.5", [("WL 2.5 x ST 7", (x, y + 0.005, z))])
         ()
-        >>> hull["WL 2.5 x ST 7"].y - y > 0.00499, len(edit.report.led)
+        >>> bool(hull["WL 2.5 x ST 7"].y - y > 0.00499), len(edit.report.led)
         (True, 1)
         """
         given = self._given
@@ -749,7 +755,10 @@ class Edit:
         A diagonal takes ``(height, angle)``: where its plane meets the centre plane, m, and by
         how many degrees it falls outward from the horizontal.
         """
-        title = group if isinstance(group, str) else self._given.group(group)
+        if isinstance(group, str):
+            title = self._given.group_named(group) or group
+        else:
+            title = self._given.group(group)
         line = _cut.add_line(self._transaction, title, position, name)
         return Line.of(self._tables, line)
 

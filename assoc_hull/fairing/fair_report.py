@@ -28,8 +28,11 @@ __all__ = ["FairLine", "FairReport"]
 _SHOWN = 10
 """So many lines and points are named."""
 
-_SUSPECT = 2.0
-"""Lines that look so many times noisier than was stated are worth a note."""
+_FIRST = 5
+"""So many points of a list in a note are named."""
+
+_SUSPECT, _TOO_MUCH = 2.0, 3.0
+"""Lines that look so many times noisier than was stated, or less noisy, are worth a note."""
 
 _ALIKE = 5e-6
 """Lines that move by less (m) are counted only."""
@@ -148,6 +151,12 @@ class FairReport:
                 f"the lines look like a noise of {1e3 * self.estimated_noise:.2g} mm, more than "
                 f"twice the {1e3 * self.noise:.3g} mm that was stated"
             )
+        if self.found.source == "stated" and self.noise > _TOO_MUCH * self.estimated_noise:
+            yield (
+                f"the lines look like a noise of {1e3 * self.estimated_noise:.2g} mm, and "
+                f"{1e3 * self.noise:.3g} mm were stated: fairing by more than there is costs shape"
+            )
+        yield from self._taken_back()
         if self.edit is not None:
             yield from (note for note in self.edit.notes if note != self.found.note)
         if self.edit is not None and self.edit.mended:
@@ -159,6 +168,22 @@ class FairReport:
         yield (
             "waves longer than about six points are shape to it, and stay; so does a wrong "
             "offset, which is to be found first"
+        )
+
+    def _taken_back(self) -> Iterator[str]:
+        """Say what edits since the checkpoint are taken back."""
+        points = self.found.taken_back
+        if not points:
+            return
+        names = ", ".join(
+            f"{each.point} ({1e3 * each.distance:.1f} mm)" for each in points[:_FIRST]
+        )
+        more = f" and {len(points) - _FIRST} more" if len(points) > _FIRST else ""
+        edits = ", ".join(f"'{each}'" for each in self.found.taken_back_edits)
+        by, ending = f" by {edits}" if edits else "", "s" if len(points) > 1 else ""
+        yield (
+            f"taken back: {len(points)} point{ending} moved{by} since the checkpoint count from "
+            f"where they were then: {names}{more}"
         )
 
     def data(self) -> dict[str, Any]:

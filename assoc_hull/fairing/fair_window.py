@@ -6,13 +6,10 @@ and shows the lines as they would be. Only `commit` edits the hull, and takes th
 
 from __future__ import annotations
 
-from functools import cache
-
 import attrs
 import numpy as np
-from threadpoolctl import ThreadpoolController
 
-from assoc_hull.analysis.fairness.fair_solution import solve_battens, solve_few
+from assoc_hull.analysis.fairness.fair_solution import linear_algebra, solve_battens, solve_few
 from assoc_hull.arguments import pair, positive
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.modifications.fair import (
@@ -36,11 +33,6 @@ _WHERE = "in a fair window"
 
 _FEW = 200
 """Up to so many points dense factors are faster."""
-
-
-@cache
-def _linear_algebra() -> ThreadpoolController:
-    return ThreadpoolController()
 
 
 @attrs.frozen(eq=False)
@@ -122,7 +114,7 @@ class FairWindow:
         given, state = self._prepared(reach)
         problem = given.problem
         limit = tolerances_of(state, problem, FairRequest(), noise) * problem.freedom
-        with _linear_algebra().limit(limits=1):
+        with linear_algebra().limit(limits=1):
             few = len(problem.rows) <= _FEW
             found = (
                 solve_few(problem, noise, given.share, limit)

@@ -157,14 +157,16 @@ class Hull:
             state.live("groups").tolist(),
             key=lambda i: (FAMILIES[table.family[i]].rank, table.name[i]),
         )
-        return NamedMapping("group", {str(table.name[i]): Group.of(state, i) for i in order})
+        groups = {str(table.name[i]): Group.of(state, i) for i in order}
+        return NamedMapping("group", groups, spoken=True)
 
     @property
     def lines(self) -> Mapping[str, Line]:
         """All lines by name; by group and name where two groups have one of the same name."""
         state = self.state
         book, live = AddressBook(state), state.live("lines").tolist()
-        return NamedMapping("line", {book.line_name(i): Line.of(state, i) for i in live})
+        lines = {book.line_name(i): Line.of(state, i) for i in live}
+        return NamedMapping("line", lines, spoken=True)
 
     @property
     def points(self) -> Points:
@@ -177,7 +179,8 @@ class Hull:
         state = self.state
         book, table = AddressBook(state), state.rows
         live = [row for row in state.live("rows").tolist() if table.curve[row, 1] >= 0]
-        return NamedMapping("crossing", {book.address(i): Crossing.of(state, i) for i in live})
+        crossings = {book.address(i): Crossing.of(state, i) for i in live}
+        return NamedMapping("crossing", crossings, spoken=True)
 
     @property
     def features(self) -> Mapping[str, FeatureHandle]:
@@ -306,7 +309,8 @@ class Hull:
         Returns
         -------
         Preview
-            The report, or why it would be refused; lines that would change; volume and LCB.
+            The report, or why it would be refused; lines that would change; volume and LCB. Where
+            something is asked with ``fair=True``, what the plain field would do is its ``plain``.
 
         Raises
         ------
@@ -1911,6 +1915,7 @@ features
         stations: Stations = "number",
         planes: Planes = "follow",
         tolerance: float = 2e-3,
+        fair: float | bool = False,
         name: str | None = None,
         in_place: bool = False,
     ) -> Variation[Hull]:
@@ -1960,6 +1965,12 @@ features
             than half of their length, all stay.
         tolerance : float, m
             How far a driver may leave its exact image.
+        fair : float or bool, m
+            How far points that the map has moved may move once more, so that lines get no new
+            changes of the sign of curvature; True: 20 mm, of a hull under 100 m less in proportion.
+            The profile and other boundary curves, flats, features and placed points stay where the
+            map takes them; values and targets are met as without. `VariationReport.faired` tells
+            what was done, and which lines have more changes still.
         name : str
             Of the step in the history; by default it tells the values.
         in_place : bool
@@ -2018,7 +2029,8 @@ features
 
         ask = VariationRequest.of(
             set, reach=reach, free=free, bounds=bounds, exact=exact, layers=layers, layout=layout,
-            drivers=drivers, stations=stations, planes=planes, tolerance=tolerance, name=name,
+            drivers=drivers, stations=stations, planes=planes, tolerance=tolerance, fair=fair,
+            name=name,
         )  # fmt: skip
         measure_parent(state_of(self, "in vary"))
         varied = _to_change(self, "vary", in_place=in_place)

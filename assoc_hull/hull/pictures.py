@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from assoc_hull.analysis.hydrostatics.record import HydrostaticTable
     from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
+    from assoc_hull.plot.lines_plan.batten_heat import HeatName
     from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing
     from assoc_hull.plot.sheet.paper import PaperName
     from assoc_hull.plot.sheet.sheet_figure import Path_
@@ -34,7 +35,10 @@ class HullPictures:
 
     All methods take `path`, where to write the picture (the ending says whether PDF, SVG or PNG;
     by default it is only given back), and most `paper`, "A3", "A1" or "A4", landscape, and `title`,
-    instead of the name of the ship. All raise BadInputError for an unknown paper or ending, and
+    instead of the name of the ship. Some take `x`, the two stations (m) between which the lines are
+    drawn, larger; and `heat`, which colours lines by the loftsman's batten: "residual", how far it
+    springs off each point, mm, or "ratio", how far from those of the lines beside, over what is
+    usual there: more than 3 is unfair. All raise BadInputError for an unknown paper or ending, and
     MissingExtraError where matplotlib is not installed.
 
     Attributes
@@ -52,6 +56,8 @@ class HullPictures:
         paper: PaperName = "A3",
         title: str | None = None,
         highlight: Collection[str] | None = None,
+        heat: HeatName | None = None,
+        x: tuple[float, float] | None = None,
     ) -> Figure:
         """Draw the three-view lines plan.
 
@@ -61,7 +67,7 @@ class HullPictures:
 
         Parameters
         ----------
-        path, paper, title
+        path, paper, title, heat, x
             As for all pictures.
         highlight : collection of str, optional
             Names of lines to be tinted.
@@ -75,6 +81,8 @@ class HullPictures:
         ------
         UnknownNameError
             A line to be tinted does not exist.
+        BadInputError
+            No line lies between the stations.
 
         Examples
         --------
@@ -85,19 +93,37 @@ class HullPictures:
         """
         from assoc_hull.plot.lines_plan.plan import lines_plan
 
-        return lines_plan(self.hull, path, paper=paper, title=title, highlight=highlight)
+        return lines_plan(
+            self.hull, path, paper=paper, title=title, highlight=highlight, heat=heat, x=x
+        )
 
     def combs(
-        self, path: Path_ | None = None, *, paper: PaperName = "A3", title: str | None = None
+        self,
+        path: Path_ | None = None,
+        *,
+        paper: PaperName = "A3",
+        title: str | None = None,
+        heat: HeatName | None = None,
+        x: tuple[float, float] | None = None,
     ) -> Figure:
         """Draw all lines with their curvature combs, each family in the view that shows it true.
 
         Teeth stand on the outside, dots are inflections. Each view has its own scale of curvature,
         such that 19 of 20 teeth are at most 6 mm long (at A3); teeth of more than 12 mm are cut.
+
+        Parameters
+        ----------
+        path, paper, title, heat, x
+            As for all pictures.
+
+        Raises
+        ------
+        BadInputError
+            No line lies between the stations.
         """
         from assoc_hull.plot.lines_plan.curvature_combs import combs_plan
 
-        return combs_plan(self.hull, path, paper=paper, title=title)
+        return combs_plan(self.hull, path, paper=paper, title=title, heat=heat, x=x)
 
     def curvature_combs(
         self,
@@ -106,6 +132,8 @@ class HullPictures:
         *,
         scale: float | None = None,
         paper: PaperName = "A3",
+        heat: HeatName | None = None,
+        x: tuple[float, float] | None = None,
     ) -> Figure:
         """Draw curvature combs of named lines, a panel each; teeth stand on the outside.
 
@@ -113,7 +141,7 @@ class HullPictures:
         ----------
         lines : sequence of str
             Names of the lines.
-        path, paper
+        path, paper, heat, x
             As for all pictures.
         scale : float, 1/m, optional
             Curvature that a tooth of 10 mm on paper stands for, at all lines; by default chosen
@@ -122,13 +150,14 @@ class HullPictures:
         Raises
         ------
         BadInputError
-            No line, a line that lies in no plane, a scale that is not positive.
+            No line, a line that lies in no plane or not between the stations, a scale that is not
+            positive.
         UnknownNameError
             A line that does not exist.
         """
         from assoc_hull.plot.lines_plan.curvature_combs import curvature_combs
 
-        return curvature_combs(self.hull, lines, path, scale=scale, paper=paper)
+        return curvature_combs(self.hull, lines, path, scale=scale, paper=paper, heat=heat, x=x)
 
     def snapshot(self) -> Drawing:
         """Keep the lines as they are now, for `before_after`."""
@@ -144,6 +173,8 @@ class HullPictures:
         paper: PaperName = "A3",
         title: str | None = None,
         half_breadth: bool = False,
+        exaggerate: float | None = None,
+        x: tuple[float, float] | None = None,
     ) -> Figure:
         """Draw the body plan as it is over what it was.
 
@@ -154,16 +185,25 @@ class HullPictures:
         ----------
         before : Drawing, or Hull
             What `snapshot` kept, or another hull.
-        path, paper, title
+        path, paper, title, x
             As for all pictures.
         half_breadth : bool
             Whether to draw the half-breadth plan below.
+        exaggerate : float, optional
+            How many times as large movements are drawn: in place of two lines that coincide on
+            paper, teeth of the movement along the hull's normal, red out, blue in.
+
+        Raises
+        ------
+        BadInputError
+            A factor not above 0; no line lies between the stations.
         """
         from assoc_hull.plot.lines_plan.before_after import before_after
 
         return before_after(
-            before, self.hull, path, paper=paper, title=title, half_breadth=half_breadth
-        )
+            before, self.hull, path, paper=paper, title=title, half_breadth=half_breadth,
+            exaggerate=exaggerate, x=x,
+        )  # fmt: skip
 
     def comparison(
         self,
@@ -173,6 +213,8 @@ class HullPictures:
         paper: PaperName = "A3",
         title: str | None = None,
         found: HullComparison | None = None,
+        exaggerate: float | None = None,
+        x: tuple[float, float] | None = None,
     ) -> Figure:
         """Draw the lines plan of a variant, red where it differs, and this hull in grey.
 
@@ -180,15 +222,25 @@ class HullPictures:
         ----------
         variant : Hull
             The other hull.
-        path, paper, title
+        path, paper, title, x
             As for all pictures.
         found : HullComparison, optional
             What `Hull.compare` gives of both: numbers, and the lines that moved farthest, then
             stand in the block.
+        exaggerate : float, optional
+            As for `before_after`.
+
+        Raises
+        ------
+        BadInputError
+            A factor not above 0; no line lies between the stations.
         """
         from assoc_hull.plot.lines_plan.comparison import comparison_plan
 
-        return comparison_plan(self.hull, variant, path, paper=paper, title=title, found=found)
+        return comparison_plan(
+            self.hull, variant, path, paper=paper, title=title, found=found,
+            exaggerate=exaggerate, x=x,
+        )  # fmt: skip
 
     def adoption_deviations(
         self,

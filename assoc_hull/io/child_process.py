@@ -28,6 +28,7 @@ from typing import IO, Any
 import attrs
 
 from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.graph.gate import Gate
 
 __all__ = ["ChildSession", "Limits", "limits_for", "run_in_child", "serve"]
 
@@ -264,30 +265,37 @@ class _Server:
 
 
 _WAITING: list[_Server] = []
-_LOCK = threading.Lock()
+_GATE = Gate()
 
 
 def _take() -> _Server:
-    with _LOCK:
-        while _WAITING:
-            server = _WAITING.pop()
-            if server.owner == os.getpid() and server.process.poll() is None:
-                return server
-    return _Server()
+    return _GATE.alone(_waiting) or _Server()
+
+
+def _waiting() -> _Server | None:
+    while _WAITING:
+        server = _WAITING.pop()
+        if server.owner == os.getpid() and server.process.poll() is None:
+            return server
+    return None
 
 
 def _give_back(server: _Server) -> None:
-    with _LOCK:
-        if hasattr(os, "fork") and server.owner == os.getpid() and len(_WAITING) < _KEPT:
-            _WAITING.append(server)
-            return
-    server.end()
+    if not _GATE.alone(lambda: _kept(server)):
+        server.end()
+
+
+def _kept(server: _Server) -> bool:
+    room = hasattr(os, "fork") and server.owner == os.getpid() and len(_WAITING) < _KEPT
+    if room:
+        _WAITING.append(server)
+    return room
 
 
 def _forget() -> None:
     """Leave the servers to the process that made them, in one that was forked from it."""
-    global _LOCK
-    _LOCK = threading.Lock()
+    global _GATE
+    _GATE = Gate()
     for server in _WAITING:
         server.process.returncode = 0  # none of ours: it is not waited for here
     _WAITING.clear()

@@ -12,7 +12,9 @@
 ``WL 0.5 @ adopted 2``         the second adopted point
 =============================  ==========================================================
 
-A key (`Point.id` and the like) is an address too; it never changes.
+A key (`Point.id` and the like) is an address too; it never changes. Where nothing has an address as
+it is written, spaces, upper and lower case, a comma for the point and zeros at the end do not
+matter: ``wl 0,50 X st07`` is ``WL 0.5 x ST 7``.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ from functools import cached_property
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import shown_name, word
+from assoc_hull.arguments import plain_name, shown_name, word
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.kinds import Sort
@@ -36,6 +38,9 @@ __all__ = ["AddressBook", "ResolvedAddress", "address", "resolve_address"]
 _OWN = re.compile(r"(.+) @ (placed|adopted) (\d{1,9})")
 _BIRTH = re.compile(r"(.+?) #(\d{1,9})")
 _PIECE = re.compile(r"(.+) \[(\d{1,9})\]")
+_SIGN = re.compile(r"\s+([x\N{MULTIPLICATION SIGN}@])\s+", re.IGNORECASE)
+_CLOSE = re.compile(r"(?:(?<=\d)|\s)\s*([x\N{MULTIPLICATION SIGN}])\s*(?=[^\d\s])", re.IGNORECASE)
+_NUMBERED = re.compile(r"(.+?)(?:\s*(\[\d{1,9}\]|#\d{1,9}))?")
 
 
 @attrs.frozen
@@ -181,6 +186,13 @@ class AddressBook:
         return found
 
     def _lookup(self, text: str) -> ResolvedAddress | None:
+        found = self._as_written(text)
+        for sign in (_SIGN, _CLOSE):
+            if found is None and (proper := self._proper(text, sign)) is not None:
+                found = self._as_written(proper)
+        return found
+
+    def _as_written(self, text: str) -> ResolvedAddress | None:
         return (
             self._line(text)
             or self._piece(text)
@@ -188,6 +200,37 @@ class AddressBook:
             or self._crossing(text)
             or self.keys.get(text)
         )
+
+    def _proper(self, text: str, sign: re.Pattern[str]) -> str | None:
+        """Give an address with its names as the hull has them; None where they are not found."""
+        parts = sign.split(text)
+        found: list[str] = []
+        for at, part in enumerate(parts):
+            if at % 2 or (at and parts[at - 1] == "@"):
+                found.append(part.casefold().replace("\N{MULTIPLICATION SIGN}", "x"))
+                continue
+            match = _NUMBERED.fullmatch(part)
+            alike = self._plain_names.get(plain_name(match[1]), ()) if match else ()
+            if match is None or len(alike) != 1:
+                return None
+            found.append(f"{alike[0]} {match[2]}" if match[2] else alike[0])
+        return " ".join(found)
+
+    @cached_property
+    def _plain_names(self) -> dict[str, tuple[str, ...]]:
+        """Names of lines and groups by how they are compared."""
+        lines, groups = self.state.lines, self.state.groups
+        depends_on = lines.alive, lines.group, lines.name, groups.alive, groups.name
+
+        def find() -> dict[str, tuple[str, ...]]:
+            found: dict[str, tuple[str, ...]] = {}
+            live = [str(groups.name[group]) for group in self.state.live("groups").tolist()]
+            for name in (*self.lines, *live):
+                plain = plain_name(name)
+                found[plain] = (*found.get(plain, ()), name)
+            return found
+
+        return self.state.derived(("plain names",), depends_on, find)
 
     def _line(self, text: str) -> ResolvedAddress | None:
         lines = self.lines.get(text, [])

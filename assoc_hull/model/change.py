@@ -49,6 +49,7 @@ __all__ = [
     "apply_change",
     "change_of",
     "crossing_positions",
+    "net_bits",
     "nothing_lies_elsewhere",
     "positions_against",
     "put_crossing_positions",
@@ -393,12 +394,9 @@ def change_of(state: HullState, journal: Journal) -> TableChange:
         if name in _OWN_WAY:
             continue
         if isinstance(column, Column):
-            net = journal.net(column)
-            found = row_bits(net.old) ^ row_bits(net.new)
-            odd = _any_bit(found)
-            # A row may have been written with the bits that it had, or taken back.
-            if odd.any():
-                bits[name] = net.rows[odd], found[odd]
+            rows, found = net_bits(journal, column)
+            if len(rows):
+                bits[name] = rows, found
         else:
             held = journal.net(column)
             chosen = [
@@ -416,6 +414,15 @@ def change_of(state: HullState, journal: Journal) -> TableChange:
         {name: size for name, size in sizes.items() if size[0] != size[1]}, bits, objects,
         _births(state, journal, columns), moved, before, after, lofted, kept,
     )  # fmt: skip
+
+
+def net_bits(journal: Journal, column: Column[np.generic]) -> tuple[IntArray, NDArray[np.uint8]]:
+    """Give the rows of a column that a journal has changed in the end, and the bits, by bytes."""
+    net = journal.net(column)
+    found = row_bits(net.old) ^ row_bits(net.new)
+    # A row may have been written with the bits that it had, or taken back.
+    odd = _any_bit(found)
+    return net.rows[odd], found[odd]
 
 
 def row_bits(values: NDArray[np.generic]) -> NDArray[np.uint8]:

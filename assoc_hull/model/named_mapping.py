@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TypeVar
 
-from assoc_hull.arguments import shown_name
+from assoc_hull.arguments import plain_name, shown_name
 from assoc_hull.errors import UnknownNameError
 
 __all__ = ["NamedMapping"]
@@ -22,6 +22,8 @@ class NamedMapping(Mapping[str, Item]):
         What the items are, for the error.
     items : mapping of str
         The items, in order.
+    spoken : bool
+        Whether a name is found however a person writes it (`plain_name`), if that names one item.
 
     Examples
     --------
@@ -30,14 +32,25 @@ class NamedMapping(Mapping[str, Item]):
     2
     """
 
-    def __init__(self, kind: str, items: Mapping[str, Item]) -> None:
-        self._kind = kind
+    def __init__(self, kind: str, items: Mapping[str, Item], *, spoken: bool = False) -> None:
+        self._kind, self._spoken = kind, spoken
         self._items = dict(items)
 
     def __getitem__(self, name: str) -> Item:
-        if name not in self:
+        found = self._name(name)
+        if found is None:
             raise UnknownNameError(self._kind, shown_name(name), tuple(self._items))
-        return self._items[name]
+        return self._items[found]
+
+    def _name(self, given: object) -> str | None:
+        """Give the name of the item that is meant; None if there is none, or several."""
+        if not isinstance(given, str) or given in self._items:
+            return given if isinstance(given, str) else None
+        if not self._spoken:
+            return None
+        plain = plain_name(given)
+        alike = [name for name in self._items if plain_name(name) == plain]
+        return alike[0] if len(alike) == 1 else None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._items)
@@ -46,7 +59,7 @@ class NamedMapping(Mapping[str, Item]):
         return len(self._items)
 
     def __contains__(self, name: object) -> bool:
-        return isinstance(name, str) and name in self._items
+        return self._name(name) is not None
 
     def __repr__(self) -> str:
         return f"<{len(self._items)} by name: {', '.join(list(self._items)[:4])}, ...>"

@@ -651,7 +651,8 @@ class Group(Handle):
         # space curves have no position and come last
         place = np.where(table.planar.data, table.offset.data, np.inf).tolist()
         order = sorted(mine.tolist(), key=lambda i: (place[i], table.key[i]))
-        return NamedMapping("line", {table.name[i]: Line.of(tables, i) for i in order})
+        lines = {table.name[i]: Line.of(tables, i) for i in order}
+        return NamedMapping("line", lines, spoken=True)
 
 
 # --------------------------------------------------------------------------------------

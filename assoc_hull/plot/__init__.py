@@ -12,7 +12,7 @@ from assoc_hull.plot.diagrams.hydrostatics import (
 )
 from assoc_hull.plot.diagrams.study import study_parallel, study_scatter
 from assoc_hull.plot.lines_plan.before_after import before_after, snapshot
-from assoc_hull.plot.lines_plan.comparison import comparison_pdf
+from assoc_hull.plot.lines_plan.comparison import comparison_pdf, comparison_plan
 from assoc_hull.plot.lines_plan.curvature_combs import combs_plan
 from assoc_hull.plot.lines_plan.drawing import given_lines
 from assoc_hull.plot.plates.curvature_map import curvature_figure
@@ -26,6 +26,7 @@ __all__ = [
     "bonjean_curves",
     "combs_plan",
     "comparison_pdf",
+    "comparison_plan",
     "curvature_figure",
     "definition_curves",
     "development_figure",

@@ -14,7 +14,6 @@ import os
 import pickle
 import signal
 import tempfile
-import threading
 import time
 import uuid
 from collections.abc import Generator, Iterator
@@ -31,6 +30,7 @@ from assoc_hull.errors import (
     MissingExtraError,
     WrongTypeError,
 )
+from assoc_hull.graph.gate import Gate
 from assoc_hull.study.row_queue import RowQueue
 from assoc_hull.study.run import StudyRow, StudyRun
 from assoc_hull.study.side_processes import (
@@ -62,6 +62,9 @@ _TRIES = 5
 _PATIENCE, _LOOK, _ASK = 30.0, 0.5, 3.0
 """s: how long a worker is waited for; how often it is looked whether the scheduler is there, and
 asked how many workers it has."""
+
+_STALL = 120.0
+"""s: after so long, and ten times what the slowest batch took, one that says nothing is lost."""
 
 _SETTINGS = {"distributed.worker.profile.enabled": False}
 _THREADS = {"NUMBA_NUM_THREADS": "1"}
@@ -180,6 +183,8 @@ class _Hands:
     back: SimpleQueue[Future] = attrs.field(factory=SimpleQueue)
     lost: dict[int, int] = attrs.field(factory=dict)
     ask_at: float = -math.inf
+    heard: float = attrs.field(factory=time.monotonic)
+    slowest: float = 0.0
 
     def trouble(self, what: str, remedy: str) -> ClusterError:
         """Give the error that says what the cluster lacks."""
@@ -234,8 +239,21 @@ class _Hands:
                 future = self.back.get(timeout=_LOOK)
             except Empty:
                 self.require_scheduler()
+                if time.monotonic() - self.heard > _STALL + 10.0 * self.slowest:
+                    self._give_up_waiting()
+                    return ()
             else:
-                return self._rows(future, self.running.pop(future))
+                self.heard = time.monotonic()
+                if future in self.running:  # else it was given up, and is made by others
+                    return self._rows(future, self.running.pop(future))
+
+    def _give_up_waiting(self) -> None:
+        """Hand in all that is on its way: the scheduler knows of it, and nobody works on it."""
+        silent, self.running = self.running, {}
+        self.client.cancel(list(silent), force=True)
+        self.heard = time.monotonic()
+        for numbers in silent.values():
+            self._hand_in(numbers, None)
 
     def require_scheduler(self) -> None:
         """Refuse to wait for a scheduler that has gone."""
@@ -258,14 +276,16 @@ class _Hands:
             what = f"its workers have another program ({' '.join(str(error).split())[:200]})"
             raise self.trouble(what, "install assoc-hull there as here") from error
         self.queue.learn(len(numbers), batch.seconds)
+        self.slowest = max(self.slowest, batch.seconds)
         return batch.rows
 
-    def _hand_in(self, numbers: tuple[int, ...], error: BaseException) -> None:
+    def _hand_in(self, numbers: tuple[int, ...], error: BaseException | None) -> None:
         """Take back a batch that was lost with its workers, and the parent if that was, too."""
         first = numbers[0]
         self.lost[first] = self.lost.get(first, 0) + 1
         if self.lost[first] > _TRIES:
-            what = f"workers died {self.lost[first]} times over rows {first} to {numbers[-1]}"
+            how = "said nothing" if error is None else "died"
+            what = f"workers {how} {self.lost[first]} times over rows {first} to {numbers[-1]}"
             raise self.trouble(what, "see their logs, and their memory") from error
         self.queue.give_back(numbers)
         if self.sent is None or self.sent.status != "finished":
@@ -323,7 +343,7 @@ def dask_setup(worker: object) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-_lock = threading.Lock()
+_gate = Gate()
 """Held while rows are made: a worker of several threads makes one batch at a time."""
 
 _own: tuple[str, StudyRun] | None = None
@@ -332,8 +352,12 @@ _own: tuple[str, StudyRun] | None = None
 
 def _make_at_worker(packed: bytes, key: str, numbers: tuple[int, ...]) -> RowBatch:
     """Make rows, of what was sent; it is prepared once."""
+    return _gate.alone(lambda: _make(packed, key, numbers))
+
+
+def _make(packed: bytes, key: str, numbers: tuple[int, ...]) -> RowBatch:
     global _own
-    with _lock, one_thread():
+    with one_thread():
         if _own is None or _own[0] != key:
             theirs, given = pickle.loads(packed)
             _require_same(theirs)

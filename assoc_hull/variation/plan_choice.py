@@ -73,6 +73,12 @@ def choose_plan(
         What is wrong with a single value, or with targets.
     """
     before = parent_fairness(edit.state)
+    lines = None
+    if ask.fair:
+        # What solves sparse systems is imported by whoever asks for it.
+        from assoc_hull.variation.faired_followers import ParentLines
+
+        lines = ParentLines.of(edit.state, before)
     best = list[tuple[float, int, SettledPlan]]()
     refusal: tuple[AssocHullError, StagedCarry] | None = None
     tried, there = set[tuple[Plan, bool]](), None
@@ -81,7 +87,7 @@ def choose_plan(
         plan, together = left.pop(0)
         if (plan, together) in tried:
             continue
-        carry = StagedCarry(edit, ask, plan, not best, together)
+        carry = StagedCarry(edit, ask, plan, not best, together, lines=lines)
         try:
             if best and not together:  # one round shows whether it is worth more
                 there = None

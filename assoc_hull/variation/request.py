@@ -272,7 +272,8 @@ def _open(pair: tuple[float, float]) -> list[float | None]:
 #
 # {"version": 1, "set": {"shaft_height": 6.0, "bossing_radius": 1.0},
 #  "layout": {"stern": 0.3}, "drivers": ["sections", "buttocks"], "stations": "number",
-#  "planes": "follow", "layers": [[{"hat": {...}}]], "tolerance": 0.002, "name": "larger screw"}
+#  "planes": "follow", "layers": [[{"hat": {...}}]], "tolerance": 0.002, "fair": true,
+#  "name": "larger screw"}
 #
 # No key must be there but ``set``, ``reach`` or ``layers``; ``version`` is that of this form.
 
@@ -286,7 +287,7 @@ VERSION = 1
 """Of the form of scripts."""
 
 _KEYS = ("version", "set", "reach", "free", "bounds", "exact", "layers", "layout", "drivers",
-         "stations", "planes", "tolerance", "name")  # fmt: skip
+         "stations", "planes", "tolerance", "fair", "name")  # fmt: skip
 _SPOKEN = {each.short: each.name for each in CATALOGUE.values()} | {
     "pmb_start": "parallel_body_start", "pmb_end": "parallel_body_end", "LPP": "length",
 }  # fmt: skip
@@ -319,6 +320,9 @@ class VariationRequest:
         The layers as they were given, if they were given as data.
     reach : TargetRequest or None
         What outputs are to be reached, and what is free for it.
+    fair : float or bool, m
+        How far points that have moved may move once more, so that lines stay as fair as they were;
+        True: as far as is usual, False: not at all.
     """
 
     values: Mapping[str, float]
@@ -331,6 +335,7 @@ class VariationRequest:
     name: str = "vary"
     given: tuple[object, ...] | None = ()
     reach: TargetRequest | None = None
+    fair: float | bool = False
 
     @classmethod
     def of(
@@ -347,6 +352,7 @@ class VariationRequest:
         stations: str = "number",
         planes: str = "follow",
         tolerance: float = TOLERANCE,
+        fair: float | bool = False,
         name: str | None = None,
     ) -> VariationRequest:
         """Take what a designer gives.
@@ -373,6 +379,7 @@ class VariationRequest:
             positive(tolerance, "tolerance", "in vary"),
             _title(found, aimed) if name is None else text(name, "the name", "in vary"),
             None if any(is_layer(each) for each in layers) else tuple(layers), aimed,
+            fair if isinstance(fair, bool) else positive(fair, "fair", "in vary"),
         )  # fmt: skip
 
 
@@ -409,7 +416,8 @@ def request_from_data(data: object) -> VariationRequest:
         bounds=data.get("bounds"), exact=data.get("exact", True),
         layers=data.get("layers", ()), layout=data.get("layout"), drivers=data.get("drivers"),
         stations=data.get("stations", "number"), planes=data.get("planes", "follow"),
-        tolerance=data.get("tolerance", TOLERANCE), name=data.get("name"),
+        tolerance=data.get("tolerance", TOLERANCE), fair=data.get("fair", False),
+        name=data.get("name"),
     )  # fmt: skip
 
 
@@ -561,6 +569,8 @@ def script_of(ask: VariationRequest) -> Mapping[str, Any] | None:
     if ask.drivers is not None:
         found["drivers"] = [_driver_name(each) for each in ask.drivers]
     found.update(stations=ask.stations, planes=ask.planes, tolerance=ask.tolerance, name=ask.name)
+    if ask.fair:
+        found["fair"] = ask.fair
     return MappingProxyType(found)
 
 

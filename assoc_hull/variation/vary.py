@@ -9,7 +9,7 @@ planes that went along, values that changed as well.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import attrs
 import numpy as np
@@ -37,6 +37,9 @@ from assoc_hull.variation.parameters.parent import Parent
 from assoc_hull.variation.parameters.value_limits import present_values
 from assoc_hull.variation.plan_choice import KINK, choose_plan, parent_fairness
 from assoc_hull.variation.request import VariationRequest, script_of
+
+if TYPE_CHECKING:
+    from assoc_hull.variation.faired_followers import FairedFollowers
 
 __all__ = [
     "Target",
@@ -268,6 +271,8 @@ class VariationReport:
         Changes of sign of curvature that lines of the parent have more.
     maps : int
         How many maps were composed: stages, and parts of them.
+    faired : FairedFollowers or None
+        What fairing the followers has done; None where it was not asked for.
     """
 
     targets: tuple[Target, ...]
@@ -284,12 +289,14 @@ class VariationReport:
     worst_comb: float = 1.0
     added_sign_changes: int = 0
     maps: int = 1
+    faired: FairedFollowers | None = None
 
     def __str__(self) -> str:
         aimed = () if self.aim is None else (str(self.aim),)
         targets = (str(each) for each in self.targets)
+        faired = () if self.faired is None else (str(self.faired),)
         stages = () if len(self.stages) < 2 else (f"in stages: {'; '.join(self.stages)}",)
-        return "\n".join([*targets, *aimed, *stages, *self.notes, str(self.edit)])
+        return "\n".join([*targets, *aimed, *stages, *faired, *self.notes, str(self.edit)])
 
 
 def measure_parent(state: HullState) -> None:
@@ -334,6 +341,8 @@ def vary_document(
             name: value if CATALOGUE[name].amplitude else now[name]
             for name, value in ask.values.items()
         }
+        if found.faired is not None:
+            edit.notes.append(str(found.faired))
         edit.varied = values_of_variation(ask, was, found.aimed)
         if not any(step.script.varied for step in document.history):
             edit.varied_before = values_before(document)
@@ -362,5 +371,5 @@ def vary_document(
         script_of(ask),
         None if found.aimed is None else attrs.evolve(found.aimed, hull=None),  # a hull is large
         tuple(map(str, found.carry.plan)), fairness.worst, fairness.added,
-        len(carried),
+        len(carried), found.faired,
     )  # fmt: skip

@@ -38,9 +38,13 @@ def targets(hull: ah.Hull, wanted: list[Wish]) -> dict[str, dict[str, float]]:
 
 
 def shared(hull: ah.Hull) -> list[Point]:
-    """Give the shared crossings that may be moved, by key."""
+    """Give the shared crossings that may be moved, by key.
+
+    Points of features stay where they are: moved by hand they dissolve them, for good.
+    """
+    owned = {hull.state.rows.key[point] for each in hull.state.features for point in each.points}
     points = [p for p in live_points(hull, "crossing") if p.crossing_role == "shared"]
-    return [point for point in points if point.free]
+    return [point for point in points if point.free and point.id not in owned]
 
 
 def move(hull: ah.Hull, to: dict[str, dict[str, float]], side: int = 0) -> bool:

@@ -395,3 +395,54 @@ def test_a_line_that_was_cut_anew_has_no_inflections_before_in_an_old_step_eithe
     assert [is_old(step) for step in one.document.steps.values()] == [True, True, False]
     for mine, theirs in zip(one.history, other.history, strict=True):
         assert mine.inflections == theirs.inflections
+
+
+def _faired_and_edited(hull: ah.Hull) -> list[str]:
+    """Fair, move and pull by the program; give the fingerprint after each."""
+    found = [hull.fingerprint]
+    for turn in range(3):
+        hull.fair(noise=0.2e-3)
+        found.append(hull.fingerprint)
+        with hull.edit("a faired point is given anew") as edit:
+            edit.move("WL 2.5 x ST 7", y=hull.points["WL 2.5 x ST 7"].y + 0.01)
+        found.append(hull.fingerprint)
+        with hull.edit("others go along") as edit:
+            edit.pull("WL 3.75 x ST 12", 0.005 * (turn + 1))
+        found.append(hull.fingerprint)
+    return found
+
+
+@pytest.mark.parametrize("held", [0, 1, NEVER])
+def test_how_far_fairing_took_points_is_there_after_undo(held: int) -> None:
+    """To the bit, whether steps are old or not."""
+    count = Count()
+    with old_after(held, count):
+        hull = ah.examples.wigley()
+        found = _faired_and_edited(hull)
+        assert count.kept > 3, "by the program"
+        for expected in found[-2::-1]:
+            hull.undo()
+            assert hull.fingerprint == expected
+        for expected in found[1:]:
+            hull.redo()
+            assert hull.fingerprint == expected
+        hull.undo(len(found) - 1)
+        assert hull.fingerprint == found[0]
+        hull.redo(len(found) - 1)
+        assert hull.fingerprint == found[-1]
+
+
+def test_how_far_fairing_took_points_is_in_the_file(tmp_path: Path) -> None:
+    """Steps of the program are told to the file by their numbers, and by what fairing did."""
+    with old_after(NEVER):
+        hull = ah.examples.wigley()
+        hull.save(tmp_path / "ship.hull")
+        found = _faired_and_edited(hull)
+        hull.close()
+    again = ah.open(tmp_path / "ship.hull")
+    assert again.fingerprint == found[-1]
+    assert again.verify() == ()
+    for expected in found[-2::-1]:
+        again.undo()
+        assert again.fingerprint == expected
+    again.close()

@@ -59,15 +59,16 @@ def factorise(matrix: csr_array, order: Order = "MMD_AT_PLUS_A") -> SuperLU:
 
 def solve_in_box(
     matrix: csr_array, gradient: FloatArray, low: FloatArray, high: FloatArray,
-    side: IntArray | None = None, order: Order = "MMD_AT_PLUS_A",
+    side: IntArray | None = None, order: Order = "MMD_AT_PLUS_A", sets: int = _SETS,
 ) -> BoxSolution:  # fmt: skip
     """Make x H x / 2 + g x least for low <= x <= high; H is symmetric and positive.
 
-    `side` (n,) says where unknowns stood in a problem like this one: that set is tried first.
+    `side` (n,) says where unknowns stood in a problem like this one: that set is tried first. No
+    more than `sets` are: then what is found keeps the bounds and is nearly the least.
     """
     diagonal = matrix.diagonal()
     side = np.zeros(len(gradient), np.int64) if side is None else side
-    for _ in range(_SETS):
+    for _ in range(sets):
         free = np.flatnonzero(side == 0)
         found = np.where(side < 0, low, np.where(side > 0, high, 0.0))
         factors = factorise(matrix[free][:, free], order) if len(free) else None

@@ -12,12 +12,14 @@ anew, w = 1 / (s^2 + r^2), each round one sparse system; bounds by an active set
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 
 import attrs
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import SuperLU
+from threadpoolctl import ThreadpoolController
 
 from assoc_hull.analysis.fairness.batten_problem import BattenProblem
 from assoc_hull.analysis.fairness.box_solver import BoxSolution, factorise, solve_in_box
@@ -29,9 +31,17 @@ __all__ = [
     "estimate_noise",
     "first_factors",
     "hold_sums",
+    "linear_algebra",
     "solve_battens",
     "solve_few",
 ]
+
+
+@cache
+def linear_algebra() -> ThreadpoolController:
+    """Give what holds linear algebra to a thread: small fronts gain nothing by more of them."""
+    return ThreadpoolController()
+
 
 _ROUNDS, _BOUNDED = 6, 2
 """Rounds of weights, and those of them that keep the bounds."""

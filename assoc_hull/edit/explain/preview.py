@@ -18,8 +18,9 @@ from assoc_hull.analysis.hydrostatics.flotation import EvenKeelDisplacement, eve
 from assoc_hull.arguments import all_of, flag, text
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain.causes import Thing, Why, node_of, why_after
-from assoc_hull.edit.recording import Settings
+from assoc_hull.edit.recording import Script, Settings
 from assoc_hull.edit.report import EditReport, Fairness
+from assoc_hull.edit.script import carry_out as carry_out_script
 from assoc_hull.edit.session import Edit, refusal_of
 from assoc_hull.edit.shapes import HullShapes, Shapes, joined
 from assoc_hull.edit.step import Step
@@ -157,6 +158,8 @@ class _Seen:
 _FOUND = ("report", "lines", "fingerprint", "_measured")
 """What a preview finds when it is read."""
 
+_KEPT = ("refused", "why", "shapes", "plain", *_FOUND)
+
 
 @attrs.frozen(eq=False, slots=False)
 class Preview:
@@ -170,17 +173,21 @@ class Preview:
         Why each object that was asked for would change.
     shapes : Shapes or None
         The curves that would change, as they would be, if that was asked for.
+    plain : Preview or None
+        What the plain field would do in place of a fair answer; None where nothing is asked to be
+        answered fairly, or where a function stands in what is asked.
     """
 
     refused: tuple[str, ...]
     why: Mapping[str, Why] = attrs.field(factory=dict, repr=False)
     shapes: Shapes | None = attrs.field(default=None, repr=False)
+    plain: Preview | None = attrs.field(default=None, repr=False)
     _seen: _Seen | None = attrs.field(default=None, repr=False)
     _tell: Callable[[], EditReport | None] = attrs.field(default=lambda: None, repr=False)
 
     def __getstate__(self) -> dict[str, object]:
         """Give all values: what they are found from stays here."""
-        found = {name: getattr(self, name) for name in ("refused", "why", "shapes", *_FOUND)}
+        found = {name: getattr(self, name) for name in _KEPT}
         return found | {"_seen": None, "_tell": None}
 
     def __setstate__(self, state: dict[str, object]) -> None:
@@ -229,7 +236,17 @@ class Preview:
         words = str(self.report)
         if self.volume_change is not None and self.lcb_change is not None:
             words += f"; volume {self.volume_change:+.4g} m3, LCB {1e3 * self.lcb_change:+.4g} mm"
+        if self.plain is not None:
+            words += f"; {_beside(self.report, self.plain)}"
         return words
+
+
+def _beside(report: EditReport, plain: Preview) -> str:
+    """Say how many changes of the sign of curvature would come, and with the plain field."""
+    if plain.report is None:
+        return f"the plain field would be refused: {'; '.join(plain.refused)}"
+    counts = [sum(more for _, more in each.inflections) for each in (report, plain.report)]
+    return f"{counts[0]} new changes of the sign of curvature, {counts[1]} with the plain field"
 
 
 def _about(seen: _Seen) -> tuple[float, float]:
@@ -274,6 +291,7 @@ def preview(
     Returns
     -------
     Preview
+        Where something is asked to be answered fairly, with what the plain field would do.
 
     Raises
     ------
@@ -299,15 +317,36 @@ def preview(
             known = thing if isinstance(thing, str) else thing.id
             causes[known] = why_after(document.state, steps, node)
         drawn = _changed_shapes(seen.after, step) if shapes else None
-        found.append(Preview((), causes, drawn, seen, lambda: trial.report))
+        found.append(Preview((), causes, drawn, None, seen, lambda: trial.report))
 
     trial = Edit(document, text(name, "the name", "in preview"), settings, look=look)
     try:
         with trial:
             carry_out(trial)
     except AssocHullError as error:
-        return Preview(refusal_of(error))
-    return found[0]
+        refused = refusal_of(error)
+        plain = _plain(document, trial.asked, settings, name, shapes=shapes, measure=measure)
+        return Preview(refused, plain=plain)
+    plain = _plain(document, trial.asked, settings, name, shapes=shapes, measure=measure)
+    return attrs.evolve(found[0], plain=plain)
+
+
+def _plain(
+    document: Document, asked: Script, settings: Settings | None, name: str, *, shapes: bool,
+    measure: Measure,
+) -> Preview | None:  # fmt: skip
+    """Give what the plain field would do in place of all fair answers; None without one."""
+    if not asked.repeatable or not any(each.get("fair") for each in asked.edits):
+        return None
+    edits = [{**each, "fair": False} if each.get("fair") else each for each in asked.edits]
+    try:
+        return preview(
+            document, lambda edit: carry_out_script(edit, edits), settings, name, shapes=shapes,
+            measure=measure,
+        )  # fmt: skip
+    except AssocHullError as error:
+        # a later modification may name a point that the fair answer places
+        return Preview((str(error),))
 
 
 def _changed_shapes(state: HullState, step: Step | None) -> Shapes:

@@ -95,6 +95,9 @@ def round_corner(
         As `straighten`; and where the sides do not meet in a corner, or the arc does not fit.
     """
     asked = LinePart.of(edit, line, points, "round")
+    # first: a radius that fits beside what is in the way would be of no use
+    asked.refuse_driven_ends()
+    asked.refuse_blocked(knuckles=True)
     old, at = asked.old, edit.state.rows.xyz
     i, j = asked.first, asked.last
     came = old.leave[i] if i == 0 else old.arrive[i]
@@ -105,8 +108,6 @@ def round_corner(
         )
     except GeometryError as error:
         raise error.at(asked.where) from None
-    asked.refuse_driven_ends()
-    asked.refuse_blocked(knuckles=True)
     _draw(edit, asked, drawn, fade)
 
 

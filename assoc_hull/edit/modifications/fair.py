@@ -14,12 +14,14 @@ from typing import Literal
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.analysis.fairness.batten_problem import BattenProblem
 from assoc_hull.analysis.fairness.fair_solution import (
     FairSolution,
     estimate_noise,
     hold_sums,
+    linear_algebra,
     solve_battens,
 )
 from assoc_hull.analysis.fairness.rounding_unit import rounding_noise, rounding_unit
@@ -45,6 +47,7 @@ __all__ = [
     "GivenBattens",
     "Held",
     "Noise",
+    "TakenBack",
     "fair",
     "given_values",
     "solve_fair",
@@ -76,6 +79,9 @@ may be short numbers by themselves."""
 
 _MEDIAN_POINTS, _LEAST_RESIDUALS = 12, 100
 """Lines and nets with fewer points do not tell noise from shape."""
+
+_TAKEN = 1e-5
+"""Times `Tolerances.factor`: a given value that an edit changed by more (m) is told."""
 
 _NAMED = 5
 """So many points a message names."""
@@ -144,6 +150,22 @@ class BoundPoint:
     tolerance: float
 
 
+@attrs.frozen
+class TakenBack:
+    """A point that an edit had moved since the checkpoint that fairing counts from.
+
+    Attributes
+    ----------
+    point : str
+        Its address.
+    distance : float, m
+        How far edits had moved it.
+    """
+
+    point: str
+    distance: float
+
+
 @attrs.frozen(eq=False)
 class Faired:
     """What fairing has found; the edit carries it out.
@@ -164,6 +186,11 @@ class Faired:
         Those that end at their tolerance.
     stayed : mapping of str to int
         How many points could not move, by reason.
+    taken_back : tuple of TakenBack
+        Points that edits had moved since the checkpoint, and that count from where they were
+        then, the farthest first.
+    taken_back_edits : tuple of str
+        Names of the edits since then that were not fairing.
     problem : BattenProblem
         The residuals about the given values; only the points that could move are in it.
     """
@@ -178,7 +205,9 @@ class Faired:
     largest_at: str
     at_bound: tuple[BoundPoint, ...]
     stayed: Mapping[str, int]
-    problem: BattenProblem = attrs.field(repr=False)
+    taken_back: tuple[TakenBack, ...] = ()
+    taken_back_edits: tuple[str, ...] = ()
+    problem: BattenProblem = attrs.field(repr=False, kw_only=True)
 
     @property
     def note(self) -> str:
@@ -257,15 +286,22 @@ def solve_fair(
     """
     state = document.state.published()
     given = given_values(document, asked)
-    noise, source = _noise(state, given.problem, asked.noise)
-    within = tolerances_of(state, given.problem, asked, noise)
-    limit = within * given.problem.freedom
-    solution = solve_battens(given.problem, noise, given.share, limit)
+    with linear_algebra().limit(limits=1):
+        noise, source = _noise(state, given.problem, asked.noise)
+        within = tolerances_of(state, given.problem, asked, noise)
+        limit = within * given.problem.freedom
+        solution = solve_battens(given.problem, noise, given.share, limit)
     digit = (_FINE_DIGIT if asked.hold else _DIGIT) * state.tolerances.factor
     if asked.hold:
         solution = _held(document, given, solution, limit, digit, asked.hold)
     rows, delta, more = _displacements(state, given, solution, limit, digit)
-    return _told(state, given, solution, within, source), rows, delta, more
+    told = _told(state, given, solution, within, source)
+    if asked.since is not None:
+        told = attrs.evolve(
+            told, taken_back=_taken_back(document, given.problem.rows, asked.since),
+            taken_back_edits=_edits_since(document, asked.since),
+        )  # fmt: skip
+    return told, rows, delta, more
 
 
 def _displacements(
@@ -291,12 +327,13 @@ def given_values(document: Document, asked: FairRequest) -> GivenBattens:
         curve = state.rows.curve.data[whole.rows]
         line = np.where(curve >= 0, state.curves.line.data[np.maximum(curve, 0)], -1)
         chosen &= np.isin(line, asked.lines).any(axis=1)
-    kept = np.isin(whole.rows, sorted(asked.keep))
-    chosen &= ~kept
     fade = None
     if asked.at is not None and asked.radius is not None:
         fade = window_fade(state, whole.rows, asked.at, asked.radius)
         chosen &= fade > _INSIDE
+    kept = np.isin(whole.rows, sorted(asked.keep))
+    _refuse_all_kept(state, whole.rows[chosen], kept[chosen])
+    chosen &= ~kept
     places = np.flatnonzero(chosen)
     problem = whole if len(places) == len(chosen) else whole.part(places)
     if not len(problem.rows) or not len(problem.residual):
@@ -315,6 +352,17 @@ def given_values(document: Document, asked: FairRequest) -> GivenBattens:
     middle = share[:, None] * offset
     present = (middle * problem.moves).sum(axis=1) / square
     return GivenBattens(problem.shifted(-present), present, offset, share, int(kept.sum()))
+
+
+def _refuse_all_kept(state: HullState, rows: IntArray, kept: NDArray[np.bool_]) -> None:
+    """Refuse to keep all the points that could move."""
+    if len(rows) and kept.all():
+        names = ", ".join(address(state, row) for row in rows[:_NAMED].tolist())
+        more = f" and {len(rows) - _NAMED} more" if len(rows) > _NAMED else ""
+        raise BadInputError(
+            "nothing to move", _WHERE,
+            f"keep names all {len(rows)} points that could move ({names}{more}); keep fewer",
+        )  # fmt: skip
 
 
 def window_fade(
@@ -339,6 +387,30 @@ def _offsets(document: Document, rows: IntArray, since: str | None) -> FloatArra
     offset = np.array(state.rows.faired.take(rows))
     offset[known] = state.rows.xyz[rows[known]] - then.rows.xyz[rows[known]]
     return offset
+
+
+def _taken_back(document: Document, rows: IntArray, since: str) -> tuple[TakenBack, ...]:
+    """Give the points whose given values edits have changed since a checkpoint."""
+    state = document.state.published()
+    then = PastStates(document).at(document.labelled(since))
+    known = rows[rows < then.rows.count]
+    known = known[then.rows.alive.data[known]]
+    now, was = (each.rows.xyz.data[known] - each.rows.faired.take(known) for each in (state, then))
+    away = np.sqrt(((now - was) ** 2).sum(axis=1))
+    order = np.argsort(-away, kind="stable")
+    order = order[away[order] > _TAKEN * state.tolerances.factor]
+    return tuple(TakenBack(address(state, int(known[i])), float(away[i])) for i in order.tolist())
+
+
+def _edits_since(document: Document, since: str) -> tuple[str, ...]:
+    """Name the edits since a checkpoint that were not fairing."""
+    before = {step.number for step in document.path(document.labelled(since))}
+    return tuple(
+        step.report.name
+        for step in document.history
+        if step.number not in before
+        and not (step.script.edits and all(each["op"] == "fair" for each in step.script.edits))
+    )
 
 
 # --------------------------------------------------------------------------------------
@@ -500,7 +572,7 @@ def _told(
         solution.noise, source, len(problem.rows), len(problem.residual),
         float(np.sqrt((d * d).mean())), float(np.percentile(size, 95.0)), float(size[most]),
         address(state, int(problem.rows[most])) if size[most] > 0.0 else "",
-        tuple(bound), stayed, problem,
+        tuple(bound), stayed, problem=problem,
     )  # fmt: skip
 
 

@@ -23,6 +23,7 @@ from assoc_hull.edit.displacement_field import (
     PointDisplacements,
     PullField,
     SolvedField,
+    level_with_flats,
     on_flat,
     on_profile,
     quintic_fade,
@@ -107,7 +108,7 @@ class Asked(Protocol):
         """Say what the radius is."""
 
 
-_FACTORS = (1.0, 1.5, 2.25, 3.4, 5.0, 7.6)
+_FACTORS = (1.0, 1.5, 2.25, 3.4, 5.0, 7.6, 12.0)
 
 
 @attrs.frozen(eq=False)
@@ -124,12 +125,16 @@ class PullAsked:
         The pull; its radius is that of the first turn.
     amount : float, m
         By how much the points are to come out, so that the point comes as far as it is pulled.
+    stations : float, m
+        How far the answer reaches along the length at least: where sections stand far apart, the
+        radius reaches none of them, and a point that comes out alone is too flat a dent to be seen.
     """
 
     name: str
     rows: IntArray
     field: PullField
     amount: float
+    stations: float = 0.0
 
     def lacking(self, state: HullState) -> float:
         """Give the pull over how far a point that is carried has come."""
@@ -154,16 +159,19 @@ class PullAsked:
 
     def fade(self, state: HullState, xyz: FloatArray, turn: int) -> FloatArray:
         """Fade along the length and the girth."""
-        factor, step = _FACTORS[min(turn, len(_FACTORS) - 1)], xyz - self.field.place
+        (length, around), step = self._radius(turn), xyz - self.field.place
         girth = np.sqrt(step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
-        along = quintic_fade(step[:, 0] / (factor * self.field.radius[0]))
-        return along * quintic_fade(girth / (factor * self.field.radius[1]))
+        return quintic_fade(step[:, 0] / length) * quintic_fade(girth / around)
+
+    def _radius(self, turn: int) -> tuple[float, float]:
+        factor = _FACTORS[min(turn, len(_FACTORS) - 1)]
+        along, girth = self.field.radius
+        return factor * max(along, self.stations), factor * girth
 
     def reach(self, state: HullState, turn: int) -> str:
         """Say the radii."""
-        factor = _FACTORS[min(turn, len(_FACTORS) - 1)]
-        along, girth = self.field.radius
-        return f"{factor * along:.3g} x {factor * girth:.3g} m"
+        along, girth = self._radius(turn)
+        return f"{along:.3g} x {girth:.3g} m"
 
 
 _RADII = (1.0, 1.5, 2.5, 4.0, 6.0, 9.0, 14.0)
@@ -297,12 +305,11 @@ class _Candidate:
 class _Trial:
     """An answer that was carried out.
 
-    `gained` is by curve: sign changes before and now at the smaller lobe, and how many came at
-    both lobes together.
+    `gained` is by curve: sign changes before and now at the smaller lobe, or at the larger where
+    the smaller has none more, and how many came at both together.
     """
 
-    turn: int
-    delta: FloatArray
+    answer: _Candidate
     gained: Mapping[int, tuple[int, int, int]]
 
     @property
@@ -361,17 +368,16 @@ class FairAnswer:
         net, stretches = NetBefore.of(state), self._lead()
         every = np.concatenate([each.rows for each in self.asked])
         if not state.rows.alive[every].all():
-            what = "a point that is asked to move has gone in the same edit"
-            where = f"in the edit {self.edit.name!r}"
-            raise BadInputError(what, where, "use two edits")
+            raise self._gone()
         self._refuse_changed(np.concatenate([every, [each.point for each in self.asked]]))
         self.asked.sort(key=_order)
         keep, lacks = self.edit.stages, 1.0
+        best: _Trial | None = None
         for _ in range(_AGAIN):
             search = _Search.of(self.edit, self.asked, before)
             if not search.moves:
                 return
-            best = search.find()
+            best = search.find(best)
             search.carry_out(best)
             # Several pulls add: then none of their points goes where one of them pulls.
             lacks = self.asked[0].lacking(state) if len(self.asked) == 1 else 1.0
@@ -395,6 +401,9 @@ class FairAnswer:
         state = self.edit.state
         rows = np.unique(np.concatenate([each.rows for each in self.leads]))
         self._refuse_changed(rows)
+        for each in self.leads:
+            if not np.isin(each.rows, state.curves.rows.data[each.curve]).all():
+                raise self._gone()
         free = fairable_rows(state)
         self.leads.sort(key=lambda each: (each.rows.tolist(), str(each.span)))
         stretches = [find_stretch(state, each, rows, free) for each in self.leads]
@@ -421,6 +430,11 @@ class FairAnswer:
         edit.notes.append(net.reach(state, self.leads))
         lines = {str(state.lines.key[state.line_of(each.curve)]): each.name for each in self.leads}
         edit.notes += second_doses(edit.document, lines)
+
+    def _gone(self) -> BadInputError:
+        """Give the error of a point that the same edit has taken away, or off its line."""
+        what = "a point that is asked to move has gone in the same edit"
+        return BadInputError(what, f"in the edit {self.edit.name!r}", "use two edits")
 
     def _refuse_changed(self, rows: IntArray) -> None:
         """Refuse points whose lines or role the same edit has changed, before or after it asked.
@@ -466,15 +480,20 @@ class _Search:
         index = order[np.searchsorted(problem.rows[order], rows)]
         slack = problem.freedom[index] < state.tolerances.field_normal
         fixed = (on_profile(state) | on_flat(state))[rows]
+        fixed |= level_with_flats(state, rows, normals[rows])
         for lost, kind in (
             (fixed, "on a flat or on the profile, which a fair answer leaves as they are"),
             (slack, "free almost along the hull only"),
         ):
             if lost.any():
                 first = int(rows[lost][0])
-                name = next(each.name for each in asked if first in each.rows.tolist())
+                mine = next(each for each in asked if first in each.rows.tolist())
+                name = mine.name
                 if state.rows.sort[first] == Sort.CROSSING:
                     name = address(state, first)
+                elif isinstance(mine, ShapeAsked):
+                    x, y, z = state.rows.xyz[first].tolist()
+                    name = f"the place of {name} at ({x:.3f}, {y:.3f}, {z:.3f}) m"
                 ways = "ask for another point, or pin this one (lead=False in insert and move)"
                 raise PointRoleError(name, kind, None, ways)
         places = _places(state, asked, rows, problem.moves[index])
@@ -491,12 +510,16 @@ class _Search:
         """Whether anything is asked for that is not so already."""
         return bool((self.places != self.edit.state.rows.xyz[self.rows]).any())
 
-    def find(self) -> _Trial:
+    def find(self, like: _Trial | None = None) -> _Trial:
         """Give the first answer that is fair, by scale and radius; else the fairest that is found.
 
         What is foretold to be fair is tried at once; the others when none of these was, the
-        fairest first.
+        fairest first. An answer like one to nearly the same is enough, if it is no less fair.
         """
+        if like is not None:
+            trial = self._try(self._solved(like.answer, like.answer.weight))
+            if trial is not None and trial.count <= like.count:
+                return trial
         best: _Trial | None = None
         waiting: list[_Candidate] = []
         for heavier, scale, turn in product((_HEAVIER, _GENTLER), _SCALES, range(len(_RADII))):
@@ -599,7 +622,7 @@ class _Search:
             self._take_back()
             return None
         gained = self.counts.gained(self.edit.state, lofted)
-        self.shown = _Trial(candidate.turn, candidate.delta, gained)
+        self.shown = _Trial(candidate, gained)
         return self.shown
 
     def _take_back(self) -> None:
@@ -624,15 +647,15 @@ class _Search:
         """Carry out the answer that was found, where it is not the last one that was tried."""
         if best is not self.shown:
             self._take_back()
-            self._run(best.delta)
+            self._run(best.answer.delta)
 
     def notes(self, best: _Trial) -> Iterator[str]:
         """Say what the answer is, and which lines gained sign changes."""
         reach = ", ".join(
-            dict.fromkeys(each.reach(self.edit.state, best.turn) for each in self.asked)
+            dict.fromkeys(each.reach(self.edit.state, best.answer.turn) for each in self.asked)
         )
         deepest = float(np.abs(self.least.amount).max())
-        far = np.abs(best.delta) > 1e-3
+        far = np.abs(best.answer.delta) > 1e-3
         yield (
             f"answered fairly within {reach}: {int(far.sum())} points move by more than 1 mm, "
             f"{self.trials} tried"
@@ -701,7 +724,7 @@ class _SignChanges:
     def gained(
         self, state: HullState, now: Mapping[int, SplineBatch]
     ) -> dict[int, tuple[int, int, int]]:
-        """Give, by curve, how many there were and are at the smaller lobe, and what came at all."""
+        """Give, by curve, how many there were and are at the lobe that gained, and what came."""
         curves = [curve for curve in now if curve in self.before]
         fresh = [curve for curve in curves if curve not in self._known]
         self._known.update(self._count(state, {curve: self.before[curve] for curve in fresh}))
@@ -710,7 +733,8 @@ class _SignChanges:
             was = self._known[curve]
             more = sum(max(new - old, 0) for new, old in zip(counts, was, strict=True))
             if more:
-                found[curve] = was[0], counts[0], more
+                lobe = next(i for i, old in enumerate(was) if counts[i] > old)
+                found[curve] = was[lobe], counts[lobe], more
         return found
 
     @staticmethod

@@ -15,7 +15,10 @@ from assoc_hull.edit.crossings.adopted_points import insert_defining_point
 from assoc_hull.edit.displacement_field import (
     FieldContext,
     PullField,
+    on_flat,
+    on_profile,
     row_spacing,
+    spacing_along,
 )
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.published_program import known_numbers
@@ -33,6 +36,11 @@ __all__ = ["curves_to_hold", "pull", "pull_field"]
 _NEAR = 0.15
 """Times `Tolerances.factor`: a curve with a point as near as this (m) is given no other to
 be pulled at."""
+
+_STATIONS = 2.0
+"""Spacings along the length that a fair answer reaches at least."""
+
+_PLAIN = ", without fair"
 
 
 def pull(
@@ -69,18 +77,21 @@ def pull(
     PointRoleError
         The point lies on a flat, or on the profile.
     """
-    # What was written by now the published numbers do not know of.
-    numbers = None if edit.journal.entries else known_numbers(edit.document)
-    field = pull_field(edit.state, row, amount, radius, across_flats=across_flats, numbers=numbers)
     if fair and across_flats:
         what = "a fair answer keeps flats as they are"
         raise BadInputError(what, "in pull", "leave fair or across_flats out")
+    # What was written by now the published numbers do not know of.
+    numbers = None if edit.journal.entries else known_numbers(edit.document)
+    field = pull_field(
+        edit.state, row, amount, radius, across_flats=across_flats, fair=fair, numbers=numbers
+    )
     if fair and amount != 0.0:
         # What solves sparse systems is imported by whoever asks for it.
         from assoc_hull.edit.modifications.fair_answer import FairAnswer, PullAsked
 
         name = address(edit.state, row)
-        asked = PullAsked(name, _points_held(edit, row), field, amount)
+        stations = 0.0 if radius is not None else spacing_along(edit.state, field.place)
+        asked = PullAsked(name, _points_held(edit, row), field, amount, _STATIONS * stations)
         FairAnswer.of(edit).asked.append(asked)
     elif amount != 0.0:
         edit.pending.ask(FieldMoves).fields.append(field)
@@ -95,6 +106,7 @@ def pull_field(
     radius: tuple[float, float] | None,
     *,
     across_flats: bool,
+    fair: bool = False,
     numbers: tuple[Program, Values] | None = None,
 ) -> PullField:
     """Give the field of a pull; it raises as `pull`. `numbers` are as `FieldContext` takes them."""
@@ -106,12 +118,11 @@ def pull_field(
     ground = FieldContext(state, across_flats, numbers)
     border = _border_distance(ground, row, reach[1])
     if border is None:
-        raise PointRoleError(
-            state.rows.key[row],
-            "on a flat or on the profile, or its normal is not known",
-            None,
-            "move the border curve, or pull with across_flats=True",
-        )
+        remedy = "move the border curve, or pull a point beside it"
+        if (on_flat(state) & ~on_profile(state))[row] and not across_flats:
+            remedy = f"move the border curve, or pull with across_flats=True{_PLAIN * fair}"
+        kind = "on a flat or on the profile, or its normal is not known"
+        raise PointRoleError(address(state, row), kind, None, remedy)
     fade, normal = min(reach[1], border), ground.normals(np.array([row]))[0].copy()
     return PullField(row, place, amount, normal, reach, fade, across_flats)
 

@@ -56,6 +56,7 @@ from assoc_hull.errors import (
     StaleHullError,
 )
 from assoc_hull.geometry.curves import IntArray
+from assoc_hull.graph.gate import Gate
 from assoc_hull.graph.journal import Journal, distinct
 from assoc_hull.io.hull_file.check import require_sound_tables, require_whole_history
 from assoc_hull.io.hull_file.database import (
@@ -276,7 +277,7 @@ class HullFile:
         self._unfolded = False
         self._thread = threading.get_ident()
         """The one that has begun the last transaction of the database."""
-        self._opened, self._reads = [database], threading.Lock()
+        self._opened, self._reads = [database], Gate()
         """The database, and a second connection where threads have read beside one that writes."""
         self._closing = weakref.finalize(self, _close_all, self._opened)
 
@@ -291,12 +292,14 @@ class HullFile:
         if self._open and self._behind.here:
             self._catch_up_rows()
         self._open = False
-        with self._reads:
-            if self.place.has_log:
+        self._reads.alone(self._let_go)
+
+    def _let_go(self) -> None:
+        if self.place.has_log:
+            _close_all(self._opened)
+        else:
+            with spared_log(self.path):
                 _close_all(self._opened)
-            else:
-                with spared_log(self.path):
-                    _close_all(self._opened)
 
     def _catch_up_rows(self) -> None:
         """Bring the rows of the tables up to date, if that can be done at once; else it is not."""
@@ -383,13 +386,15 @@ class HullFile:
         It could, as a copy that was made in this process had given the locks up; all that was
         committed here is in the file, and whether somebody wrote since is looked at as ever.
         """
-        with self._reads:
-            with spared_log(self.path):
-                _close_all(self._opened)
-            self.database = connect_database(self.path, self.wait)
-            self._opened.append(self.database)
-            self.place = FileIdentity(self.path)
+        self._reads.alone(self._connect_anew)
         self._hold()
+
+    def _connect_anew(self) -> None:
+        with spared_log(self.path):
+            _close_all(self._opened)
+        self.database = connect_database(self.path, self.wait)
+        self._opened.append(self.database)
+        self.place = FileIdentity(self.path)
 
     def _refuse_stale(self) -> None:
         if self._one("SELECT serial FROM hull")[0] != self.serial:
@@ -432,8 +437,8 @@ class HullFile:
             return False
         try:
             # Passive: whoever reads is not waited for, but threads of this process that read a row.
-            with self._reads:
-                told = self.database.execute("PRAGMA wal_checkpoint(PASSIVE)").fetchone()
+            fold = "PRAGMA wal_checkpoint(PASSIVE)"
+            told = self._reads.alone(lambda: self.database.execute(fold).fetchone())
         except sqlite3.OperationalError as error:
             # Somebody else is at it; a disk that is full, or fails, is told.
             if error.sqlite_errorname.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
@@ -588,27 +593,33 @@ class HullFile:
             return report_from(text, LateInflections(self.path, number, digest))
 
     def _read(self, sql: str, number: int) -> Any:
-        with self._reader() as database:
+        """Read one row, in nobody's way; threads that do not write share a connection for it."""
+
+        def row(database: sqlite3.Connection) -> Any:
             return database.execute(sql, (number,)).fetchone() or ()
 
-    @contextlib.contextmanager
-    def _reader(self, *, long: bool = False) -> Iterator[sqlite3.Connection]:
-        """Give a connection to read from that is in nobody's way: for one row, or for `long`.
-
-        A thread that writes reads from its own; all others share one, and what takes long has one
-        for itself, as has all that is read when the file has been let go of.
-        """
         with database_errors(self.path, self.wait):
-            if self._open and (self._is_writing_here() or not self._is_there()):
+            found = None
+            if not self._reads_as_writer():
+                found = self._reads.alone(lambda: row(self._second()) if self._open else None)
+        if found is None:
+            with self._reader() as database:
+                found = row(database)
+        return found
+
+    @contextlib.contextmanager
+    def _reader(self) -> Iterator[sqlite3.Connection]:
+        """Give a connection to read from for long; what was let go of is opened for it alone."""
+        with database_errors(self.path, self.wait):
+            if self._reads_as_writer():
                 yield self.database
                 return
-            if not long:
-                with self._reads:
-                    if self._open:
-                        yield self._second()
-                        return
             with contextlib.closing(connect_database(self.path, self.wait)) as database:
                 yield database
+
+    def _reads_as_writer(self) -> bool:
+        """Tell whether this thread reads from the connection that writes: its own, or the last."""
+        return self._open and (self._is_writing_here() or not self._is_there())
 
     def _is_writing_here(self) -> bool:
         """Tell whether the transaction of the database, if there is one, is of this thread."""
@@ -775,7 +786,7 @@ class HullFile:
 
     def damages(self) -> list[str]:
         """Look through the whole file for what is not as it was written; one line each."""
-        with self._reader(long=True) as database:
+        with self._reader() as database:
             told = database.execute("PRAGMA integrity_check(20)").fetchall()
             numbers = database.execute("SELECT number FROM steps ORDER BY number").fetchall()
         found = [str(line) for (line,) in told if line != "ok"]

@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING, TypeVar
 import attrs
 import numpy as np
 
-from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import FAMILIES
+from assoc_hull.model.named_mapping import NamedMapping
 from assoc_hull.model.tables import HasState, HullState
 from assoc_hull.plot.lines_plan.drawing import tables_of
 from assoc_hull.plot.sheet.paper import FAMILY_COLOURS, Paper, PaperName, Pen
@@ -241,11 +242,10 @@ def neighbourhood(
 
 
 def _centre(every: Sequence[DriveLink], name: str) -> CurveNode:
-    known = {node.name: node for link in every for node in (link.tail, link.head)}
-    found = known.get(name) or known.get(f"{name} [1]")
-    if found is None:
-        raise UnknownNameError("curve", name, tuple(known))
-    return found
+    nodes = {node.name: node for link in every for node in (link.tail, link.head)}
+    known = NamedMapping("curve", nodes, spoken=True)
+    first = f"{name} [1]"
+    return known[first if name not in known and first in known else name]
 
 
 def _pairs(every: Sequence[DriveLink]) -> list[_Edge]:

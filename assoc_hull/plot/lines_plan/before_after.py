@@ -13,10 +13,22 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, PlotCrossings, PlotLine, drawing
-from assoc_hull.plot.lines_plan.three_views import Views, body_halves, scale_of_body
+from assoc_hull.plot.lines_plan.exaggerated_movement import (
+    ExaggeratedMovement,
+    exaggerated,
+    steps_from,
+)
+from assoc_hull.plot.lines_plan.plan import window_rows
+from assoc_hull.plot.lines_plan.three_views import (
+    Views,
+    body_halves,
+    body_sides,
+    extent,
+    scale_of_body,
+)
+from assoc_hull.plot.lines_plan.zoom_window import zoomed
 from assoc_hull.plot.sheet.paper import BEFORE, MARGIN, TINT, PaperName, Pen
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import BLOCK, caption, frame, title_block
@@ -43,9 +55,6 @@ __all__ = [
 LEAST = 5e-4
 """Movements below this (m) are not shown."""
 
-_FINE = 64
-"""Chords per segment of the line as it was, against which distances are taken."""
-
 
 @attrs.frozen
 class LineMovement:
@@ -66,8 +75,8 @@ class LineMovement:
     place: tuple[float, float, float]
 
 
-def movements(before: Drawing, after: Drawing) -> tuple[LineMovement, ...]:
-    """Give the lines that moved, the farthest first, then those that are new.
+def movements(before: Drawing, after: Drawing, least: float = LEAST) -> tuple[LineMovement, ...]:
+    """Give the lines that moved by `least`, m, the farthest first, then those that are new.
 
     Movement is taken at the crossings, along the hull's normal there; for a line without
     crossings it is the distance between the line and what it was.
@@ -80,7 +89,7 @@ def movements(before: Drawing, after: Drawing) -> tuple[LineMovement, ...]:
             found.append(LineMovement(line.name, float("nan"), _place(line.points[0])))
         elif not same_shape(old[line.name], line):
             moved = at_crossings.get(line.name) or _moved(old[line.name], line)
-            found += [moved] if moved.distance > LEAST else []
+            found += [moved] if moved.distance > least else []
     return tuple(
         sorted(found, key=lambda each: (np.isnan(each.distance), -each.distance, each.line))
     )
@@ -140,27 +149,8 @@ def _place(point: FloatArray) -> tuple[float, float, float]:
 
 def _from_all(line: PlotLine, points: FloatArray) -> FloatArray:
     """Give the distance of points (k, 3) from a line, (k,), m."""
-    found: FloatArray = np.min([_distance(spline, points) for spline in line.splines], axis=0)
-    return found
-
-
-def _distance(spline: SplineBatch, points: FloatArray) -> FloatArray:
-    from scipy.spatial import cKDTree
-
-    course = sample(spline, _FINE)[1]
-    nearest = cKDTree(course).query(points)[1]
-    last = len(course) - 1
-    before = _to_chord(course[np.maximum(nearest - 1, 0)], course[nearest], points)
-    after = _to_chord(course[nearest], course[np.minimum(nearest + 1, last)], points)
-    return np.minimum(before, after)
-
-
-def _to_chord(start: FloatArray, end: FloatArray, points: FloatArray) -> FloatArray:
-    along, step = end - start, points - start
-    square = (along * along).sum(axis=1)
-    part = (step * along).sum(axis=1) / np.where(square > 0.0, square, 1.0)
-    off = step - np.clip(part, 0.0, 1.0)[:, None] * along
-    found: FloatArray = np.sqrt((off * off).sum(axis=1))
+    step = steps_from(line, points)
+    found: FloatArray = np.sqrt((step * step).sum(axis=1))
     return found
 
 
@@ -169,6 +159,7 @@ def _to_chord(start: FloatArray, end: FloatArray, points: FloatArray) -> FloatAr
 
 _SIDE = 38.0  # mm at A3, for the words at the arrow
 _ABOVE, _BELOW = 16.0, 20.0
+_SHARE = 0.35  # of the height of the sheet, for the half-breadth plan of a stretch
 _TOLD = 12
 """At most so many movements are listed."""
 
@@ -191,6 +182,8 @@ def before_after(
     paper: PaperName = "A3",
     title: str | None = None,
     half_breadth: bool = False,
+    exaggerate: float | None = None,
+    x: tuple[float, float] | None = None,
 ) -> Figure:
     """Draw the body plan before and after an edit.
 
@@ -210,6 +203,11 @@ def before_after(
         Instead of the name of the ship.
     half_breadth : bool
         Whether to draw the half-breadth plan below.
+    exaggerate : float, optional
+        How many times as large movements are drawn: in place of two lines that coincide on
+        paper, teeth of the movement along the hull's normal, red out, blue in.
+    x : (float, float), m, optional
+        Draw only what lies between these stations, larger.
 
     Returns
     -------
@@ -221,7 +219,7 @@ def before_after(
     MissingExtraError
         Matplotlib is not installed.
     BadInputError
-        An unknown paper or ending.
+        An unknown paper or ending; no line between the stations; a factor not above 0.
 
     Examples
     --------
@@ -230,33 +228,36 @@ def before_after(
     >>> hull = wigley()
     >>> figure = before_after(snapshot(hull), hull)
     """
-    old, new = drawing(before), drawing(after)
-    moved = movements(old, new)
+    old, new = zoomed(drawing(before), x), zoomed(drawing(after), x)
+    large = exaggerated(new, exaggerate)
+    moved = movements(old, new, LEAST if large is None else large.least)
     sheet = Sheet(paper)
     frame(sheet, MARGIN * sheet.paper.factor)
-    _block(sheet, title or new.particulars.name, old, new, moved)
-    low, high = (np.stack([old.bounds, new.bounds])).transpose(1, 0, 2)
-    views = Views(sheet, new, np.minimum(low.min(axis=0), 0.0), high.max(axis=0))
-    base = _half(views, old) if half_breadth else MARGIN * sheet.paper.factor
-    _body(views, old, base, moved)
+    _block(sheet, title or new.particulars.name, old, new, moved, large)
+    views = Views(sheet, new, *extent(old, new))
+    base = _half(views, old, large) if half_breadth else MARGIN * sheet.paper.factor
+    _body(views, old, base, moved, large)
     if path is not None:
         save(sheet.figure, path)
     return sheet.figure
 
 
 def _block(
-    sheet: Sheet, title: str, old: Drawing, new: Drawing, moved: Sequence[LineMovement]
-) -> None:
+    sheet: Sheet, title: str, old: Drawing, new: Drawing, moved: Sequence[LineMovement],
+    large: ExaggeratedMovement | None,
+) -> None:  # fmt: skip
     """Write what moved, the farthest first."""
     factor = sheet.paper.factor
     corner = (sheet.paper.width - MARGIN * factor, sheet.paper.height - MARGIN * factor)
-    rows = [(each.line, _amount(each)) for each in moved[:_TOLD]]
+    rows = [*window_rows(new.window), *((each.line, _amount(each)) for each in moved[:_TOLD])]
     if len(moved) > _TOLD:
         rows.append((f"and {len(moved) - _TOLD} more", ""))
     gone = sorted({line.name for line in old.lines} - {line.name for line in new.lines})
     notes = [
         f"{len(moved)} of {len(new.lines)} lines moved, by these amounts along the hull's normal.",
-        f"Red: where by more than {1e3 * LEAST:g} mm. Grey: before.",
+        f"Red: where by more than {1e3 * LEAST:g} mm. Grey: before."
+        if large is None
+        else large.note,
     ]
     notes += [f"Removed: {', '.join(gone[:4])}{' ...' if len(gone) > 4 else ''}"] if gone else []
     title_block(sheet, corner, BLOCK * factor, title, rows, notes)
@@ -266,18 +267,23 @@ def _amount(moved: LineMovement) -> str:
     return "new" if np.isnan(moved.distance) else f"{1e3 * moved.distance:.1f} mm"
 
 
-def _half(views: Views, old: Drawing) -> float:
+def _half(views: Views, old: Drawing, large: ExaggeratedMovement | None) -> float:
     """Draw the half-breadth plan at the foot of the sheet; give the height it ends at, mm."""
     paper, (low, high) = views.sheet.paper, (views.low, views.high)
     factor = paper.factor
     length = float(high[0] - low[0])
     scale = scale_of(length, paper.width - 2.0 * (MARGIN + 17.0) * factor)
+    if views.drawing.window is not None:
+        # a short stretch is as high as it is long
+        scale = max(scale, scale_of(float(high[1]), _SHARE * paper.height))
     x = 0.5 * (paper.width - 1e3 / scale * length) - 1e3 / scale * float(low[0])
     view = View("half-breadth", (0, 1), scale, (x, (MARGIN + 20.0) * factor))
     views.half_breadth(view)
-    overlay(views.sheet, view, pairs_of(old.of("waterlines"), views.drawing.of("waterlines")))
-    words = f"HALF-BREADTH PLAN  1:{scale:g}"
-    caption(views.sheet, (view.across(views.middle), view.up(0.0) - 11.0 * factor), words)
+    pairs = pairs_of(old.of("waterlines"), views.drawing.of("waterlines"))
+    overlay(views.sheet, view, pairs, large=large)
+    words = f"HALF-BREADTH PLAN  1:{scale:g}" + ("" if large is None else large.words(view))
+    place = (view.across(views.drawing.middle), view.up(0.0) - 11.0 * factor)
+    caption(views.sheet, place, words)
     return view.up(float(high[1])) + 12.0 * factor
 
 
@@ -287,11 +293,21 @@ def pairs_of(old: Sequence[PlotLine], new: Sequence[PlotLine]) -> Iterator[Pair]
     yield from ((was.get(name), now.get(name)) for name in dict.fromkeys((*was, *now)))
 
 
-def overlay(sheet: Sheet, view: View, pairs: Iterable[Pair], pen: Pen = BEFORE) -> None:
-    """Draw lines as they were, in grey or another pen, and in red where they moved."""
+def overlay(
+    sheet: Sheet, view: View, pairs: Iterable[Pair], pen: Pen = BEFORE,
+    large: ExaggeratedMovement | None = None,
+) -> None:  # fmt: skip
+    """Draw lines as they were, in grey or another pen, and in red where they moved.
+
+    With `large`, a line of both has its movement drawn in place of the two.
+    """
     for was, now in pairs:
-        if was is not None and now is not None and same_shape(was, now):
-            continue
+        if was is not None and now is not None:
+            if same_shape(was, now):
+                continue
+            if large is not None:
+                large.draw(sheet, view, was, now)
+                continue
         if was is not None:
             for points in was.polylines:
                 sheet.line(view.on_paper(points), pen, f"{view.name}/before/{was.name}")
@@ -300,23 +316,29 @@ def overlay(sheet: Sheet, view: View, pairs: Iterable[Pair], pen: Pen = BEFORE) 
                 sheet.line(view.on_paper(part), _AFTER, f"{view.name}/moved/{now.name}")
 
 
-def _body(views: Views, old: Drawing, base: float, moved: Sequence[LineMovement]) -> None:
+def _body(
+    views: Views, old: Drawing, base: float, moved: Sequence[LineMovement],
+    large: ExaggeratedMovement | None,
+) -> None:  # fmt: skip
     paper, (low, high) = views.sheet.paper, (views.low, views.high)
     factor = paper.factor
     width = paper.width - (2.0 * MARGIN + BLOCK + 2.0 * _SIDE) * factor
     room = paper.height - MARGIN * factor - base - (_ABOVE + _BELOW) * factor
     height = float(high[2] - low[2])
-    scale = scale_of_body(float(high[1]), height, (width, room))
+    breadth, sides = float(high[1]), body_sides(views.drawing)
+    scale = scale_of_body(0.5 * len(sides) * breadth, height, (width, room))
     spare = room - height * 1e3 / scale
     up = base + _BELOW * factor + 0.5 * spare - float(low[2]) * 1e3 / scale
-    view = View("body", (1, 2), scale, (0.5 * (paper.width - BLOCK * factor), up))
+    middle = 0.5 * (paper.width - BLOCK * factor) - 0.5 * sum(sides) * breadth * 1e3 / scale
+    view = View("body", (1, 2), scale, (middle, up))
     views.body(view)
     sections = Views(views.sheet, old, low, high).sections
     halves = (body_halves(lines, views.middle) for lines in (sections, views.sections))
     for half, was, now in zip((view.mirrored(), view), *halves, strict=True):
-        overlay(views.sheet, half, pairs_of(was, now))
+        overlay(views.sheet, half, pairs_of(was, now), large=large)
     foot = view.up(float(low[2])) - 9.0 * factor
-    caption(views.sheet, (view.across(0.0), foot), f"BODY PLAN  1:{scale:g}")
+    words = f"BODY PLAN  1:{scale:g}" + ("" if large is None else large.words(view))
+    caption(views.sheet, (view.across(0.5 * sum(sides) * breadth), foot), words)
     if moved and not np.isnan((largest := moved[0]).distance):
         _arrow(views, view, largest)
 

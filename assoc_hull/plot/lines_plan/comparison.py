@@ -19,8 +19,10 @@ from assoc_hull.errors import WrongTypeError
 from assoc_hull.model.tables import HasState, HullState
 from assoc_hull.plot.lines_plan.before_after import LEAST, overlay, pairs_of
 from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, drawing
-from assoc_hull.plot.lines_plan.plan import captions
+from assoc_hull.plot.lines_plan.exaggerated_movement import ExaggeratedMovement, exaggerated
+from assoc_hull.plot.lines_plan.plan import captions, window_rows
 from assoc_hull.plot.lines_plan.three_views import ViewLayout, Views, body_halves, lay_out_views
+from assoc_hull.plot.lines_plan.zoom_window import zoomed
 from assoc_hull.plot.sheet.labels import wrap_words
 from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen
 from assoc_hull.plot.sheet.report_pages import GREY, LEFT, RIGHT, PageFlow, page_foot, page_head
@@ -71,6 +73,8 @@ def comparison_plan(
     paper: PaperName = "A3",
     title: str | None = None,
     found: HullComparison | None = None,
+    exaggerate: float | None = None,
+    x: tuple[float, float] | None = None,
 ) -> Figure:
     """Draw the lines plan of a variant, and in grey what its parent was where they differ.
 
@@ -90,6 +94,11 @@ def comparison_plan(
     found : HullComparison, optional
         What `Hull.compare` tells of both: numbers, and the lines that moved farthest, then
         stand in the block.
+    exaggerate : float, optional
+        How many times as large movements are drawn: teeth along the hull's normal, red out, blue
+        in, in place of two lines that coincide on paper.
+    x : (float, float), m, optional
+        Draw only what lies between these stations, larger.
 
     Returns
     -------
@@ -102,7 +111,7 @@ def comparison_plan(
     MissingExtraError
         Matplotlib is not installed.
     BadInputError
-        An unknown paper or ending.
+        An unknown paper or ending; no line between the stations; a factor not above 0.
 
     Examples
     --------
@@ -110,7 +119,9 @@ def comparison_plan(
     >>> from assoc_hull.plot.lines_plan.comparison import comparison_plan
     >>> figure = comparison_plan(wigley(), wigley(breadth=11.0))
     """
-    figure = comparison_plan_sheet(parent, variant, paper=paper, title=title, found=found).figure
+    figure = comparison_plan_sheet(
+        parent, variant, paper=paper, title=title, found=found, exaggerate=exaggerate, x=x
+    ).figure
     if path is not None:
         save(figure, path)
     return figure
@@ -123,23 +134,30 @@ def comparison_plan_sheet(
     paper: PaperName = "A3",
     title: str | None = None,
     found: HullComparison | None = None,
+    exaggerate: float | None = None,
+    x: tuple[float, float] | None = None,
 ) -> Sheet:
     """Give the plan as a sheet; arguments and errors as for `comparison_plan`."""
-    old, new = drawing(parent), drawing(variant)
+    was, now = drawing(parent), drawing(variant)
+    old, new = zoomed(was, x), zoomed(now, x)
+    large = exaggerated(new, exaggerate)
     sheet = Sheet(paper)
     layout = lay_out_views(attrs.evolve(new, lines=(*new.lines, *old.lines)), sheet.paper)
     frame(sheet, MARGIN * sheet.paper.factor)
-    _block(sheet, layout, title or new.particulars.name, _dimensions(old, new), found)
-    captions(sheet, new, layout)
+    rows = [*_dimensions(was, now), *window_rows(new.window)]
+    _block(sheet, layout, title or new.particulars.name, rows, found, large)
+    captions(sheet, new, layout, (lambda view: "") if large is None else large.words)
     views = Views(sheet, new, layout.low, layout.high)
     views.profile(layout.profile)
     views.half_breadth(layout.half)
     views.body(layout.body)
-    _overlay(views, layout, old)
+    _overlay(views, layout, old, large)
     return sheet
 
 
-def _overlay(views: Views, layout: ViewLayout, old: Drawing) -> None:
+def _overlay(
+    views: Views, layout: ViewLayout, old: Drawing, large: ExaggeratedMovement | None
+) -> None:
     """Draw what the parent was, and what of the variant lies elsewhere."""
     for view, families in (
         (layout.profile, ("boundary", "buttocks")),
@@ -147,25 +165,25 @@ def _overlay(views: Views, layout: ViewLayout, old: Drawing) -> None:
     ):
         for family in families:
             pairs = pairs_of(old.of(family), views.drawing.of(family))
-            overlay(views.sheet, view, pairs, _PARENT)
+            overlay(views.sheet, view, pairs, _PARENT, large)
     before = Views(views.sheet, old, layout.low, layout.high)
     halves = (body_halves(each.sections, views.middle) for each in (before, views))
     for half, was, now in zip((layout.body.mirrored(), layout.body), *halves, strict=True):
-        overlay(views.sheet, half, pairs_of(was, now), _PARENT)
+        overlay(views.sheet, half, pairs_of(was, now), _PARENT, large)
 
 
 Rows = list[tuple[str, str]]
 
 
 def _block(
-    sheet: Sheet, layout: ViewLayout, title: str, dimensions: Rows, found: HullComparison | None
-) -> None:
+    sheet: Sheet, layout: ViewLayout, title: str, dimensions: Rows, found: HullComparison | None,
+    large: ExaggeratedMovement | None,
+) -> None:  # fmt: skip
     """Write what both are, and what is known of their differences."""
     profile, body = layout.profile.denominator, layout.body.denominator
     rows = [*dimensions, ("Scale", f"1:{profile:g}, body plan 1:{body:g}, {sheet.paper.name}")]
     notes = [
-        "Grey: the parent, where they differ.",
-        f"Red: the variant where it lies off the parent by more than {1e3 * LEAST:g} mm.",
+        *_colours(large),
         "Moulded lines, m; x forward from AP, z upward from the base line.",
     ]
     if found is not None:
@@ -176,10 +194,21 @@ def _block(
     title_block(sheet, layout.corner, width, title, rows[: _room(layout, sheet, len(notes))], notes)
 
 
+def _colours(large: ExaggeratedMovement | None) -> list[str]:
+    if large is not None:
+        return [large.note]
+    return [
+        "Grey: the parent, where they differ.",
+        f"Red: the variant where it lies off the parent by more than {1e3 * LEAST:g} mm.",
+    ]
+
+
 def _room(layout: ViewLayout, sheet: Sheet, notes: int) -> int:
     """Give how many rows the block may have above the profile and the names over it."""
     factor = sheet.paper.factor
     top = layout.profile.up(float(layout.high[2])) + _ABOVE * factor
+    if top > layout.corner[1]:
+        top = MARGIN * factor  # the block stands below the body plan
     free = (layout.corner[1] - top) / factor - block_height(0, notes)
     return max(int(free / ROW), 0)
 

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.errors import UnknownNameError
+from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
@@ -20,6 +20,7 @@ from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind
 from assoc_hull.model.line_source import LineSource, line_curve_data
+from assoc_hull.model.named_mapping import NamedMapping
 from assoc_hull.model.tables import HasState, HullState, Particulars, state_of
 from assoc_hull.plot.sheet.paper import HEAVY, LINE, TINT, Pen
 
@@ -134,7 +135,7 @@ class PlotCrossings:
     line : tuple of k (str, str)
         Names of the lines that cross.
     xyz, normal : (k, 3)
-        Place, m, and unit normal of the hull, of either sense.
+        Place, m, and unit outward normal of the hull.
     """
 
     key: tuple[str, ...]
@@ -155,11 +156,14 @@ class Drawing:
         By family, along each family by plane.
     crossings : Crossings
         Where they cross.
+    window : (float, float) or None, m
+        The x between which its lines are cut off; None where they are whole.
     """
 
     particulars: Particulars
     lines: tuple[PlotLine, ...]
     crossings: PlotCrossings
+    window: tuple[float, float] | None = None
 
     def of(self, family: str) -> tuple[PlotLine, ...]:
         """Give the lines of a family."""
@@ -173,10 +177,9 @@ class Drawing:
         UnknownNameError
             There is none.
         """
-        for line in self.lines:
-            if line.name == name:
-                return line
-        raise UnknownNameError("line", name, tuple(line.name for line in self.lines))
+        # Of several lines of a name the first.
+        named = {line.name: line for line in reversed(self.lines)}
+        return NamedMapping("line", named, spoken=True)[name]
 
     @property
     def profile(self) -> PlotLine | None:
@@ -188,9 +191,21 @@ class Drawing:
 
     @property
     def bounds(self) -> FloatArray:
-        """Least and greatest coordinates, (2, 3), m."""
+        """Least and greatest coordinates, (2, 3), m; in x those of its window."""
         points = np.concatenate([line.points for line in self.lines])
-        return np.stack([points.min(axis=0), points.max(axis=0)])
+        found = np.stack([points.min(axis=0), points.max(axis=0)])
+        if self.window is not None:
+            found[:, 0] = self.window
+        return found
+
+    @property
+    def middle(self) -> float:
+        """The middle of what is drawn along x, m: of Lpp where the lines are whole."""
+        return 0.5 * (self.particulars.length if self.window is None else sum(self.window))
+
+    def shows(self, x: float) -> bool:
+        """Tell whether a station lies in its window."""
+        return self.window is None or self.window[0] <= x <= self.window[1]
 
 
 Drawable = HasState | HullState | Drawing
@@ -221,6 +236,8 @@ def _crossings(state: HullState, book: AddressBook) -> PlotCrossings:
     normal = crossing_normals(*(tangents(state, curve[:, i], at[:, i]) for i in (0, 1)))
     known = (normal != 0.0).any(axis=1)
     rows, normal = rows[known], normal[known]
+    inward = (normal * hull_normals(state)[rows]).sum(axis=1) < 0.0
+    normal[inward] *= -1.0
     name = {line: book.line_name(line) for line in state.live("lines").tolist()}
     lines = state.curves.line[table.curve[rows]]
     return PlotCrossings(

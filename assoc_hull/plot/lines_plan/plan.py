@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING
 
 import attrs
 
+from assoc_hull.plot.lines_plan.batten_heat import HeatName, batten_heat
 from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, drawing, particulars_of
-from assoc_hull.plot.lines_plan.three_views import ViewLayout, Views, lay_out_views
+from assoc_hull.plot.lines_plan.three_views import ViewLayout, Views, body_sides, lay_out_views
+from assoc_hull.plot.lines_plan.zoom_window import zoomed
 from assoc_hull.plot.sheet.paper import MARGIN, PaperName
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import BLOCK, caption, frame, scale_bar, title_block
+from assoc_hull.plot.sheet.view import View
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["captions", "lines_plan"]
+__all__ = ["captions", "lines_plan", "window_rows"]
 
 
 def lines_plan(
@@ -26,6 +29,8 @@ def lines_plan(
     paper: PaperName = "A3",
     title: str | None = None,
     highlight: Collection[str] | None = None,
+    heat: HeatName | None = None,
+    x: tuple[float, float] | None = None,
 ) -> Figure:
     """Draw the three-view lines plan.
 
@@ -45,6 +50,11 @@ def lines_plan(
         Instead of the name of the ship.
     highlight : collection of str, optional
         Names of lines to be tinted.
+    heat : "residual" or "ratio", optional
+        Colour lines by how far a batten springs off each point, mm; or by how far from those of
+        the lines beside, over what is usual there, of which more than 3 is unfair.
+    x : (float, float), m, optional
+        Draw only what lies between these stations, larger.
 
     Returns
     -------
@@ -58,7 +68,7 @@ def lines_plan(
     UnknownNameError
         A line to be tinted does not exist.
     BadInputError
-        An unknown paper or ending.
+        An unknown paper or ending; no line between the stations; heat of a snapshot.
 
     Examples
     --------
@@ -66,23 +76,31 @@ def lines_plan(
     >>> from assoc_hull.plot.lines_plan.plan import lines_plan
     >>> figure = lines_plan(wigley(), highlight=["WL 2.5"])
     """
-    plan = drawing(hull)
-    tinted = [plan.line(name).name for name in highlight or ()]
+    whole = drawing(hull)
+    plan = zoomed(whole, x)
+    tinted = [whole.line(name).name for name in highlight or ()]
+    colours = None if heat is None else batten_heat(hull, heat)
     sheet = Sheet(paper)
     layout = lay_out_views(plan, sheet.paper)
     frame(sheet, MARGIN * sheet.paper.factor)
-    _block(sheet, plan, layout, title or plan.particulars.name)
+    below = _block(sheet, whole, layout, title or plan.particulars.name, plan.window)
     captions(sheet, plan, layout)
     views = Views(sheet, plan, layout.low, layout.high, tinted)
     views.profile(layout.profile)
     views.half_breadth(layout.half)
     views.body(layout.body)
+    if colours is not None:
+        views.heat(layout, colours)
+        colours.legend(sheet, below)
     if path is not None:
         save(sheet.figure, path)
     return sheet.figure
 
 
-def _block(sheet: Sheet, plan: Drawing, layout: ViewLayout, title: str) -> None:
+def _block(
+    sheet: Sheet, plan: Drawing, layout: ViewLayout, title: str, window: tuple[float, float] | None
+) -> tuple[float, float]:
+    """Write the particulars, and the scales below them; give the place below these, mm."""
     factor = sheet.paper.factor
     width = BLOCK * factor
     profile, body = layout.profile, layout.body
@@ -91,7 +109,7 @@ def _block(sheet: Sheet, plan: Drawing, layout: ViewLayout, title: str) -> None:
         "Moulded lines, m; x forward from AP, z upward from the base line.",
         "Aft body left, fore body right. Dash-dotted: borders of the flats.",
     )
-    rows = [*particulars_of(plan), ("Scale", scales)]
+    rows = [*particulars_of(plan), ("Scale", scales), *window_rows(window)]
     lower = title_block(sheet, layout.corner, width, title, rows, notes)
     x = layout.corner[0] - width + 4.0 * factor
     bars = ((profile, "Profile, half-breadth plan"), (body, "Body plan"))
@@ -99,23 +117,33 @@ def _block(sheet: Sheet, plan: Drawing, layout: ViewLayout, title: str) -> None:
         words = f"{name}  1:{view.denominator:g}"
         place = (x, lower - (9.0 + 12.0 * i) * factor)
         scale_bar(sheet, view, place, width - 14.0 * factor, words)
+    return x, lower - 31.0 * factor
 
 
-def captions(sheet: Sheet, plan: Drawing, layout: ViewLayout) -> None:
-    """Write the names of the views below them."""
+def window_rows(window: tuple[float, float] | None) -> list[tuple[str, str]]:
+    """Give the row of a block that tells what stretch is drawn; none of a whole hull."""
+    return [] if window is None else [("Drawn, x from and to", f"{window[0]:g}, {window[1]:g} m")]
+
+
+def captions(
+    sheet: Sheet, plan: Drawing, layout: ViewLayout, more: Callable[[View], str] = lambda _: ""
+) -> None:
+    """Write the names of the views below them, and what else there is to say of each."""
     factor = sheet.paper.factor
-    middle = 0.5 * plan.particulars.length
-    low = layout.low[2]
+    middle, low = plan.middle, layout.low[2]
+    body, sides = layout.body, body_sides(plan)
+    across = 0.5 * float(layout.high[1]) * sum(sides)
     rows = (
         (layout.profile, middle, low, 11.0, "PROFILE"),
         (layout.half, middle, -layout.depth, 11.0, "HALF-BREADTH PLAN"),
-        (layout.body, 0.0, low, 9.0, "BODY PLAN"),
+        (body, across, low, 9.0, "BODY PLAN"),
     )
-    for view, across, up, drop, words in rows:
-        place = (view.across(across), view.up(up) - drop * factor)
-        caption(sheet, place, words)
-    body = layout.body
-    for sign, words in ((-1.0, "AFT BODY"), (1.0, "FORE BODY")):
+    for view, along, up, drop, words in rows:
+        place = (view.across(along), view.up(up) - drop * factor)
+        caption(sheet, place, words + more(view))
+    if more(body) or len(sides) == 1:
+        return  # the words take the room
+    for sign, words in zip(sides, ("AFT BODY", "FORE BODY"), strict=True):
         half = attrs.evolve(body, sign=sign)
         place = (half.across(0.5 * layout.high[1]), body.up(low) - 9.0 * factor)
         caption(sheet, place, words)

@@ -13,7 +13,9 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.plot.lines_plan.batten_heat import BattenHeat
 from assoc_hull.plot.lines_plan.drawing import Drawing, PlotLine, pen_of
+from assoc_hull.plot.lines_plan.zoom_window import clipped
 from assoc_hull.plot.sheet.labels import LabelledLine, Side, label_above, label_lines, label_row
 from assoc_hull.plot.sheet.paper import AXIS, GRID, HEAVY, MARGIN, WATER, Paper, Pen
 from assoc_hull.plot.sheet.sheet_figure import Sheet
@@ -25,6 +27,8 @@ __all__ = [
     "ViewLayout",
     "Views",
     "body_halves",
+    "body_sides",
+    "extent",
     "lay_out_views",
     "scale_of_body",
 ]
@@ -36,6 +40,7 @@ _SIDE = 17.0  # for labels left and right of a view
 _ABOVE, _BELOW, _CAPTION = 9.0, 9.0, 7.0
 _ABOVE_HALF = 6.5
 _BODY_ABOVE, _BODY_BELOW = 15.0, 12.0
+_BESIDE = 128.0  # for block, scale bars and legend below the body plan of a stretch
 
 
 @attrs.frozen
@@ -69,15 +74,16 @@ def lay_out_views(drawing: Drawing, paper: Paper) -> ViewLayout:
     The half-breadth plan lies below the profile on the same scale, aligned in x; above both
     lies the body plan on its own, larger scale, beside the block of particulars.
     """
+    if drawing.window is not None:
+        return _lay_out_stretch(drawing, paper)
     factor = paper.factor
-    low, high = drawing.bounds
-    low = np.minimum(low, [0.0, 0.0, 0.0])
+    low, high = extent(drawing)
     length, breadth, height = (high - low).tolist()
     depth = _diagonal_reach(drawing)
     frame = MARGIN * factor
+    bands = (_ABOVE_HALF + _ABOVE + 2.0 * (_BELOW + _CAPTION)) * factor
     scale = scale_of(length, paper.width - 2.0 * frame - 2.0 * _SIDE * factor)
     unit = 1e3 / scale
-    bands = (_ABOVE_HALF + _ABOVE + 2.0 * (_BELOW + _CAPTION)) * factor
     lower = unit * (height + breadth + depth) + bands
     room = paper.height - 2.0 * frame - lower
     body_room = (
@@ -99,6 +105,74 @@ def lay_out_views(drawing: Drawing, paper: Paper) -> ViewLayout:
         View("body", (1, 2), body_scale, (middle, base)),
         low, high, depth, (paper.width - frame, paper.height - frame),
     )  # fmt: skip
+
+
+def _lay_out_stretch(drawing: Drawing, paper: Paper) -> ViewLayout:
+    """Choose scales and places for a stretch of a hull, which is about as long as it is high.
+
+    The body plan stands right of the profile, both on one base; the half-breadth plan below the
+    profile. The block has its place below the body plan, or right of it, where more room is left.
+    """
+    factor, frame = paper.factor, MARGIN * paper.factor
+    low, high = extent(drawing)
+    length, breadth, height = (high - low).tolist()
+    depth, halves = _diagonal_reach(drawing), body_sides(drawing)
+    body = len(halves) * breadth
+    tall, wide = paper.height - 2.0 * frame, paper.width - 2.0 * frame - 4.0 * _SIDE * factor
+    heads = (_BODY_ABOVE + _BODY_BELOW + _CAPTION) * factor
+    bands = heads + (_ABOVE_HALF + _BELOW + 2.0 * _CAPTION) * factor
+    lower = scale_of(height + breadth + depth, tall - bands)
+    below = max(
+        scale_of(length + body, wide), lower,
+        scale_of(height, max(tall - heads - _BESIDE * factor, 1.0)),
+    )  # fmt: skip
+    beside = max(scale_of(length + body, wide - BLOCK * factor), lower)
+    scale = min(below, beside)
+    unit = 1e3 / scale
+    gap = (tall - bands - unit * (height + breadth + depth)) / 4.0
+    top = paper.height - frame - _BODY_ABOVE * factor - unit * height
+    base = top - gap
+    if below <= beside:
+        base = max(base, frame + _BESIDE * factor + (_BODY_BELOW + _CAPTION) * factor)
+        corner = (paper.width - frame, base - (_BODY_BELOW + _CAPTION) * factor)
+        room = wide
+    else:
+        corner = (paper.width - frame, paper.height - frame)
+        room = wide - BLOCK * factor
+    spare = (room - unit * (length + body)) / 3.0
+    left = frame + _SIDE * factor + spare
+    right = left + unit * length + 2.0 * _SIDE * factor + spare
+    if below <= beside:
+        # no wider to the right than the block, which lies below
+        right = min(right, corner[0] - _SIDE * factor - unit * body)
+    x, z = left - unit * low[0], base - unit * low[2]
+    y = base - (bands - heads) - gap - unit * breadth
+    middle = right + (unit * breadth if -1.0 in halves else 0.0)
+    return ViewLayout(
+        View("profile", (0, 2), scale, (x, z)),
+        View("half-breadth", (0, 1), scale, (x, y)),
+        View("body", (1, 2), scale, (middle, z)),
+        low, high, depth, corner,
+    )  # fmt: skip
+
+
+def body_sides(drawing: Drawing) -> tuple[float, ...]:
+    """Give the halves of the body plan that a drawing fills: -1 is the aft body, 1 the fore."""
+    middle = 0.5 * drawing.particulars.length
+    if drawing.window is None:
+        return -1.0, 1.0
+    aft, fore = drawing.window
+    return (*((-1.0,) if aft < middle else ()), *((1.0,) if fore > middle else ()))
+
+
+def extent(*drawings: Drawing) -> tuple[FloatArray, FloatArray]:
+    """Give least and greatest coordinates of drawings of one window, (3,), m.
+
+    The centre plane and the base line are in; where the lines are whole, the AP too.
+    """
+    low, high = np.stack([each.bounds for each in drawings]).transpose(1, 0, 2)
+    whole = drawings[0].window is None
+    return np.minimum(low.min(axis=0), [0.0 if whole else np.inf, 0.0, 0.0]), high.max(axis=0)
 
 
 def scale_of_body(breadth: float, height: float, room: tuple[float, float]) -> float:
@@ -155,24 +229,26 @@ class Grid:
 
     def body(self, view: View) -> None:
         """Draw waterlines and buttocks as straight lines, labelled at their ends."""
-        factor, breadth = self.sheet.paper.factor, self.high[1]
-        left, right = view.across(-breadth) - self.over, view.across(breadth) + self.over
+        factor, breadth = self.sheet.paper.factor, float(self.high[1])
+        sides = body_sides(self.drawing)
+        ends = [breadth * min(*sides, 0.0), breadth * max(*sides, 0.0)]
+        left, right = view.across(ends[0]) - self.over, view.across(ends[1]) + self.over
         self._level_lines(view, left, right)
         low, high = view.up(self.low[2]) - self.over, view.up(self.high[2]) + self.over
         below = low - 2.0 * factor
-        ends, words = [], []
+        feet, words = [], []
         for line in self.drawing.of("buttocks"):
-            for half in (view, view.mirrored()):
+            for half in (attrs.evolve(view, sign=side) for side in reversed(sides)):
                 x = half.across(line.offset)
                 self.sheet.rule((x, low), (x, high), GRID, f"body/grid/{line.name}")
-                ends.append([x, low])
+                feet.append([x, low])
                 words.append(line.label)
         label_row(
-            self.sheet, np.array(ends).reshape(-1, 2), words, "below", below,
+            self.sheet, np.array(feet).reshape(-1, 2), words, "below", below,
             heading="BTK", name="label/body/buttocks",
         )  # fmt: skip
         self.sheet.rule((view.across(0.0), low), (view.across(0.0), high), AXIS, "body/grid/CL")
-        for edge in (-breadth, breadth):
+        for edge in (each for each in ends if each):
             self.sheet.rule(
                 (view.across(edge), low), (view.across(edge), high), GRID, "body/grid/side"
             )
@@ -223,8 +299,12 @@ class Grid:
         ends = np.array([(end, view.up(height)) for height, _ in marks]).reshape(-1, 2)
         off = (2.5 if side == "right" else -2.5) * self.sheet.paper.factor
         words = [name for _, name in marks]
-        name, sparse = f"label/{view.name}/{side}", side == "left" and view.name != "body"
+        name, sparse = f"label/{view.name}/{side}", side == "left" and self._sparse(view)
         label_row(self.sheet, ends, words, side, end + off, sparse=sparse, name=name)
+
+    def _sparse(self, view: View) -> bool:
+        """Whether names may be left out where they have no room: the body plan has all."""
+        return view.name != "body" or self.drawing.window is not None
 
     def lanes(self, view: View, low: float, high: float) -> None:
         """Draw the buttocks as straight lines along the ship, labelled on the left as `levels`."""
@@ -245,6 +325,8 @@ class Grid:
         factor, length = self.sheet.paper.factor, self.drawing.particulars.length
         bottom, top = view.up(low) - self.over, view.up(high) + self.over
         for x, words in ((0.0, "AP"), (0.5 * length, "Lpp/2"), (length, "FP")):
+            if not self.drawing.shows(x):
+                continue
             at = view.across(x)
             self.sheet.rule((at, bottom), (at, top), AXIS, f"{view.name}/grid/{words}")
             text = self.sheet.text(
@@ -326,6 +408,8 @@ class Views:
                 tops = [
                     end for end in (points[0], points[-1]) if end[1] > view.up(self.middle_height)
                 ]
+                # where a stretch cuts a line off, its name stands at the other end, if that is up
+                tops = [end for end in tops if not self._cut_off(view, end)] or tops
                 ends += tops
                 words += [line.label] * len(tops)
         top = view.up(self.high[2]) + 3.2 * self.sheet.paper.factor
@@ -335,6 +419,10 @@ class Views:
             upright=True, heading="BTK", name="label/profile/buttocks",
         )  # fmt: skip
         self.grid.levels(view, self.low[0], self.high[0])
+
+    def _cut_off(self, view: View, end: FloatArray) -> bool:
+        """Whether the window of the drawing ends a line there, mm on paper."""
+        return any(abs(end[0] - view.across(x)) < 1e-6 for x in self.drawing.window or ())
 
     @property
     def middle_height(self) -> float:
@@ -354,7 +442,8 @@ class Views:
             if not self._along_grid(line):
                 lettered += [LabelledLine(label, points, line.name) for points in found]
         self._diagonals(view)
-        start, end, middle = (view.across(x) for x in (self.low[0], self.high[0], self.middle))
+        along = (self.low[0], self.high[0], self.drawing.middle)
+        start, end, middle = (view.across(x) for x in along)
         wanted = {line.label for line in lettered}
         for low, high, part in ((start, middle, "aft"), (middle, end, "fore")):
             wanted -= label_lines(
@@ -400,6 +489,20 @@ class Views:
         )  # fmt: skip
         self.grid.body(view)
 
+    def heat(self, layout: ViewLayout, colours: BattenHeat) -> None:
+        """Colour the lines of all three views."""
+        for view, families in (
+            (layout.profile, ("boundary", "buttocks")),
+            (layout.half, ("boundary", "waterlines")),
+        ):
+            for line in (each for family in families for each in self.drawing.of(family)):
+                if view is layout.profile or line is not self.drawing.profile:
+                    colours.draw(self.sheet, view, line, self.drawing)
+        halves = body_halves(self.sections, self.middle)
+        for view, lines in zip((layout.body.mirrored(), layout.body), halves, strict=True):
+            for line in lines:
+                colours.draw(self.sheet, view, line, self.drawing)
+
     def _half_body(self, view: View, sections: Sequence[PlotLine]) -> list[_Top]:
         """Draw the sections of one half, labelled on the lines; give their tops."""
         tops, lettered = [], []
@@ -421,9 +524,9 @@ class Views:
     def _half_boundary(self, view: View, line: PlotLine) -> None:
         """Draw what of a boundary lies abaft (mirrored) or before the middle."""
         pen = pen_of(line, line.name in self.tinted)
+        edges = (self.middle, np.inf) if view.sign > 0.0 else (-np.inf, self.middle)
         for points in line.polylines:
-            part = _clip(points, self.middle, view.sign)
-            if len(part) > 1:
+            for part, _ in clipped(points, *edges):
                 self.sheet.line(view.on_paper(part), pen, f"body/boundary/{line.name}")
 
 
@@ -434,16 +537,3 @@ def body_halves(
     aft = tuple(line for line in sections if line.offset <= middle + _NEAR)
     fore = tuple(line for line in sections if line.offset >= middle - _NEAR)
     return aft, fore
-
-
-def _clip(points: FloatArray, middle: float, sign: float) -> FloatArray:
-    """Give the part of a polyline before (sign 1) or abaft (-1) a station."""
-    ahead = sign * (points[:, 0] - middle)
-    found = []
-    for i in range(len(points)):
-        if i and ahead[i - 1] * ahead[i] < 0.0:
-            part = ahead[i - 1] / (ahead[i - 1] - ahead[i])
-            found.append(points[i - 1] + part * (points[i] - points[i - 1]))
-        if ahead[i] >= 0.0:
-            found.append(points[i])
-    return np.array(found).reshape(-1, 3)

@@ -87,7 +87,7 @@ def title_block(
             sheet.text((inset, y), words, across="left", up="baseline", name=f"label/note/{words}")
         )
     y -= 0.6 * row
-    edge = np.array([(left, top), (left, y), (right, y)])
+    edge = np.array([(right, top), (left, top), (left, y), (right, y)])
     sheet.line(edge, FRAME, "block")
     return y
 

@@ -10,12 +10,13 @@ time. Targets of outputs are reached on the hull that the plan gives, in each ro
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import attrs
 import numpy as np
 
 from assoc_hull.errors import AssocHullError, BadInputError
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.model.tables import HullState, copy_state
 from assoc_hull.variation.aiming.hull_problem import HullProblem, Reached
 from assoc_hull.variation.aiming.outputs import Outputs
@@ -29,6 +30,9 @@ from assoc_hull.variation.parameters.compose_map import refuse_clashes
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.value_limits import present_values
 from assoc_hull.variation.request import TargetRequest, VariationRequest
+
+if TYPE_CHECKING:
+    from assoc_hull.variation.faired_followers import FairedFollowers
 
 __all__ = [
     "PROMISED",
@@ -51,6 +55,10 @@ _MET = 1e-7
 """A set value (m, degrees) is met where its residual is less than this; 1e-6 is promised."""
 
 PROMISED = 1e-6
+
+_HELD, _HELD_PROMISED = 1e-9, 1e-8
+"""Targets are held by fairing where they are off by less than this part of their size."""
+
 _ROUNDS = 7
 
 _JUMPED = 0.1
@@ -81,6 +89,12 @@ class SettledPlan:
         What named parameters get, free ones among them.
     rounds : int
         How often the plan was carried out.
+    faired : FairedFollowers or None
+        How followers were faired after it.
+    off, shift : (m,), of the size of targets; (m,)
+        By how much targets are missed with followers faired, and by how much less was aimed at.
+    again : FairedFollowers or None
+        The fairing that was repeated; None where it was searched for.
     """
 
     carry: StagedCarry
@@ -90,6 +104,20 @@ class SettledPlan:
     aimed: AimReport | None
     values: Mapping[str, float]
     rounds: int = 1
+    faired: FairedFollowers | None = None
+    off: FloatArray | None = None
+    shift: FloatArray | None = None
+    again: FairedFollowers | None = None
+
+    @property
+    def missed(self) -> float:
+        """By what part of its size a target is missed at most, with followers faired."""
+        return 0.0 if self.off is None else float(np.abs(self.off).max())
+
+    @property
+    def unmet(self) -> float:
+        """How large misses are beside those that are taken for none."""
+        return max(self.worst / _MET, self.missed / _HELD)
 
     @property
     def worst(self) -> float:
@@ -157,20 +185,22 @@ def settle_plan(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
     _refuse_jump(found, room)
     there: SettledPlan | None = found
     rounds = 1
-    while best.worst > _MET and rounds < _ROUNDS:
+    while best.unmet > 1.0 and rounds < _ROUNDS:
         aims, rounds = aims.corrected(found.miss), rounds + 1
         start = None if found.aimed is None else _hull(found.aimed).amplitudes
         try:
-            found = there = _attempt(carry, aims.values, before, start)
+            found = there = _attempt(
+                carry, aims.values, before, start, found.faired, _shifted(found)
+            )
         except AssocHullError:
             there = None  # the correction went astray: what was asked for is not at fault
             break
-        if found.worst < best.worst:
+        if found.unmet < best.unmet:
             best = found
-    if best.worst > PROMISED:
+    if best.worst > PROMISED or best.missed > _HELD_PROMISED:
         raise _missed(best, ask)
     if best is not there:
-        best = _attempt(carry, best.aims, before, best.start)
+        best = _attempt(carry, best.aims, before, best.start, best.again, best.shift)
     return attrs.evolve(best, rounds=rounds)
 
 
@@ -179,8 +209,14 @@ def _attempt(
     aims: Mapping[str, float],
     before: FloatArray | None,
     start: FloatArray | None,
+    again: FairedFollowers | None = None,
+    shift: FloatArray | None = None,
 ) -> SettledPlan:
-    """Carry out the plan with some aims, and measure what it gives."""
+    """Carry out the plan with some aims, and measure what it gives.
+
+    What fairs the followers is searched for, or done `again`; `shift` (m,) is by how much less
+    than the targets is aimed at.
+    """
     ask, aimed, values = carry.ask, None, dict(carry.ask.values)
     if carry.together:
         carry.edit.take_back()
@@ -189,13 +225,70 @@ def _attempt(
         carry.run(aims)
     if before is not None and ask.reach is not None:
         left = aims if carry.together else {}
-        aimed, free = _reached(carry, ask.reach, left, before, start)
+        aimed, free = _reached(carry, ask.reach, left, before, start, shift)
         values |= free
     elif not carry.carried:
         carry.carry_by_nothing()
+    faired, off = _faired(carry, again), None
+    if faired is not None and aimed is not None and ask.reach is not None and before is not None:
+        aimed, off = _after_fairing(carry, aimed, ask.reach, before)
     reached = measure_requested(carry.edit.state, ask)
     miss = {name: value - reached[name] for name, value in ask.values.items()}
-    return SettledPlan(carry, dict(aims), miss, start, aimed, values)
+    return SettledPlan(
+        carry, dict(aims), miss, start, aimed, values,
+        faired=faired, off=off, shift=shift, again=again,
+    )  # fmt: skip
+
+
+# --------------------------------------------------------------------------------------
+# Followers that are faired: what is met is then met with them.
+
+_USUAL = 0.02
+"""How far followers move unless it is said, m, of a ship of 100 m or more."""
+
+
+def _faired(carry: StagedCarry, again: FairedFollowers | None) -> FairedFollowers | None:
+    """Fair the followers if it is asked for, or do again what was found."""
+    fair, lines, edit = carry.ask.fair, carry.lines, carry.edit
+    if lines is None:
+        return None
+    # What solves sparse systems is imported by whoever asks for it.
+    from assoc_hull.variation.faired_followers import fair_followers, repeat_fairing
+
+    if again is not None:
+        return repeat_fairing(edit, lines, again)
+    within = _USUAL * edit.state.tolerances.factor if fair is True else float(fair)
+    return fair_followers(edit, lines, within)
+
+
+def _after_fairing(
+    carry: StagedCarry, aimed: AimReport, reach: TargetRequest, before: FloatArray
+) -> tuple[AimReport, FloatArray]:
+    """Give the report with the outputs of the faired hull, and what these are off by.
+
+    What is a compromise is left as one: nothing is off.
+    """
+    targets = np.array(list(reach.targets.values()))
+    values = Outputs.of(carry.edit.state, tuple(reach.targets)).values(carry.edit.state)
+    freeze(targets, values)
+    off = (values - targets) / _sizes(before, targets)
+    told = attrs.evolve(aimed, targets=targets, values=values)
+    return told, off if aimed.reached else np.zeros_like(off)
+
+
+def _shifted(found: SettledPlan) -> FloatArray | None:
+    """Give by how much less than the targets is to be aimed at next."""
+    reach = found.carry.ask.reach
+    if found.off is None or found.aimed is None or reach is None or not found.aimed.reached:
+        return found.shift
+    off = found.aimed.values - found.aimed.targets
+    return off if found.shift is None else found.shift + off
+
+
+def _sizes(before: FloatArray, targets: FloatArray) -> FloatArray:
+    """Give the sizes of targets, of which misses are parts."""
+    sizes = np.maximum(np.abs(before), np.abs(targets))
+    return np.where(sizes > 0.0, sizes, 1.0)
 
 
 def _refuse_jump(found: SettledPlan, room: AdmissibleValues) -> None:
@@ -233,11 +326,18 @@ def measure_requested(state: HullState, ask: VariationRequest) -> dict[str, floa
 
 def _missed(best: SettledPlan, ask: VariationRequest) -> BadInputError:
     """Say which value cannot be had, and what came nearest to it."""
+    if best.worst <= PROMISED and best.aimed is not None:
+        at = int(np.abs(best.off if best.off is not None else best.aimed.misses).argmax())
+        return BadInputError(
+            f"{best.aimed.outputs[at]} is {best.aimed.misses[at]:.2g} off after the followers were "
+            "faired", "in vary", "leave fair out, or let them move less",
+        )  # fmt: skip
     name, miss = max(best.miss.items(), key=lambda each: abs(each[1]))
     asked, unit = ask.values[name], CATALOGUE[name].unit
     return BadInputError(
         f"{name} reached {asked - miss:.9g} {unit}, asked {asked:.9g} {unit}, {abs(miss):.2g} off",
-        "in vary", "ask for less, or give a finer tolerance",
+        "in vary", "ask for less, or give a finer tolerance"
+        + ("" if best.faired is None else ", or leave fair out"),
     )  # fmt: skip
 
 
@@ -259,8 +359,11 @@ def _reached(
     left: Mapping[str, float],
     before: FloatArray,
     start: FloatArray | None,
+    shift: FloatArray | None,
 ) -> tuple[AimReport, dict[str, float]]:
     """Carry the hull by what is free so that targets are reached, together with aims that are left.
+
+    `shift` (m,) is by how much less than the targets is aimed at.
 
     Gives the solver's report, and the values of what is free.
     """
@@ -270,7 +373,7 @@ def _reached(
     # Else what is set is there now, and raw layers have acted.
     ask = carry.ask if left else attrs.evolve(carry.ask, values={}, layers=())
     maps = HullMaps(room, ask, aims, freedoms(room, ask, reach))
-    aimed = _aimed(maps, Outputs.of(state, tuple(reach.targets)), before, reach, start)
+    aimed = _aimed(maps, Outputs.of(state, tuple(reach.targets)), before, reach, start, shift)
     hull = _hull(aimed)
     base = hull.base
     whole, certificate = maps.certified(hull.amplitudes)
@@ -343,11 +446,12 @@ def _aimed(
     before: FloatArray,
     reach: TargetRequest,
     start: FloatArray | None,
+    shift: FloatArray | None,
 ) -> AimReport:
     """Solve for the targets on a hull that has what is set."""
     targets = np.array(list(reach.targets.values()))
-    sizes = np.maximum(np.abs(before), np.abs(targets))
-    scales = np.where(sizes > 0.0, sizes, 1.0)
+    scales = _sizes(before, targets)
+    targets = targets if shift is None else targets - shift
     # quick hulls first; in full only where these do not hold on a hull laid out by itself
     for quick in (True, False):
         aimed = solve_targets(

@@ -7,6 +7,7 @@ who has the edit sees the hull between them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
 import attrs
 import numpy as np
@@ -22,6 +23,9 @@ from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.stages import Plan, Stage, refined_plan
 from assoc_hull.variation.request import VariationRequest
+
+if TYPE_CHECKING:
+    from assoc_hull.variation.faired_followers import ParentLines
 
 __all__ = ["CarriedMap", "StagedCarry"]
 
@@ -95,6 +99,8 @@ class StagedCarry:
         The stage that was refused last, at its finest.
     base : AdmissibleValues or None
         What is measured of the hull as it came, if it is at hand.
+    lines : ParentLines or None
+        The lines of the hull as it came, where followers are to be faired.
     """
 
     edit: Transaction
@@ -105,6 +111,7 @@ class StagedCarry:
     carried: list[CarriedMap] = attrs.field(factory=list)
     refused: Stage | None = None
     base: AdmissibleValues | None = None
+    lines: ParentLines | None = None
 
     def run(self, aims: Mapping[str, float]) -> None:
         """Carry the hull as it came by all stages; whatever was carried before is taken back.

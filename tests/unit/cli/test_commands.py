@@ -290,6 +290,41 @@ def test_a_plot_tells_its_file(hull: Path, facts: Json, tmp_path: Path) -> None:
     assert facts("plot", hull, "-o", out) == {"saved": str(out)}
 
 
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--view", "combs", "--heat", "ratio", "--x", "0", "50"], "heat 0/"),
+        (["--combs", "WL 2.5", "--heat", "residual"], "heat 0/"),
+        (["--before", "{hull}", "--exaggerate", "50"], "50 times"),
+    ],
+)
+def test_pictures_that_fairing_is_judged_by_are_plotted(
+    options: list[str], told: str, hull: Path, tmp_path: Path
+) -> None:
+    """All combs, with heat and of a stretch; what moved since another hull."""
+    pytest.importorskip("matplotlib")
+    path = tmp_path / "picture.svg"
+    given = [each.format(hull=hull) for each in options]
+    assert main(["plot", str(hull), "-o", str(path), *given]) == 0
+    assert told in path.read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--exaggerate", "50"], "add --before"),
+        (["--before", "a.hull", "--heat", "ratio"], "--before draws what moved"),
+        (["--view", "definitions", "--x", "0", "9"], "go with lines and combs"),
+    ],
+)
+def test_options_of_another_picture_are_refused(
+    options: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Before anything is read."""
+    assert main(["plot", "none.hull", "-o", "a.svg", *options]) == 2
+    assert told in capsys.readouterr().err
+
+
 def test_combs_are_plotted(hull: Path, tmp_path: Path) -> None:
     """Of the lines that are named."""
     pytest.importorskip("matplotlib")

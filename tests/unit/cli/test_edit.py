@@ -115,6 +115,21 @@ def test_a_dry_run_tells_lines_movement_and_place(hull: Path, edits: Edits, fact
     assert preview.volume_change > 0.0
 
 
+def test_a_dry_run_of_a_fair_edit_tells_the_plain_field_too(
+    hull: Path, edits: Edits, facts: Json, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In words and as data; of a plain edit there is nothing beside."""
+    pull = {"op": "pull", "point": POINT, "d": 0.02, "radius": [15, 4]}
+    file = edits([{**pull, "fair": True}])
+    plain = facts("edit", hull, file, "--dry-run")["plain"]
+    alone = facts("edit", hull, edits([pull]), "--dry-run")
+    assert (plain["lines"], plain["inflections"]) == (alone["lines"], alone["inflections"])
+    assert alone["plain"] is None
+    assert main(["edit", str(hull), str(edits([{**pull, "fair": True}])), "--dry-run"]) == 0
+    told = capsys.readouterr().out
+    assert "  with the plain field\n    would change 15 lines\n" in told
+
+
 def test_a_dry_run_tells_it_in_words(
     hull: Path, edits: Edits, capsys: pytest.CaptureFixture[str]
 ) -> None:

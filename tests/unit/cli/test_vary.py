@@ -50,6 +50,23 @@ def test_an_option_goes_before_what_the_script_says(
     assert reached == {"breadth": 11.0, "draught": 7.0}
 
 
+def test_followers_are_faired_where_it_is_asked(
+    hull: Path, tmp_path: Path, facts: Json, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With a reach, or as far as is usual; what was done is told, and repeated by the script."""
+    command = ["vary", hull, "--set", "breadth=11", "--fair", "0.005"]
+    found = facts(*command, "-o", tmp_path / "fair.hull")
+    assert found["faired"]["within"] == 0.005
+    assert found["faired"]["lines"] == []
+    assert found["script"]["fair"] == 0.005
+    usual = facts(*command[:-1], "-o", tmp_path / "usual.hull")
+    assert usual["script"]["fair"] is True
+    assert main([*map(str, command), "-o", str(tmp_path / "told.hull")]) == 0
+    assert "followers faired within 5 mm: " in capsys.readouterr().out
+    plain = facts("vary", hull, "--set", "breadth=11", "-o", tmp_path / "plain.hull")
+    assert plain["faired"] is None
+
+
 def test_the_list_has_a_line_per_parameter(hull: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """One each below the head, with its value or the reason why there is none."""
     assert main(["vary", str(hull), "--list"]) == 0

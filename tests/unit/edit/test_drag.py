@@ -483,3 +483,18 @@ def test_the_number_of_the_state_is_that_of_the_published_one() -> None:
     assert seen == [(0, 0)]
     assert ship.state_number == 1
     assert len(ship.since(0).rows)
+
+
+def test_a_pull_tells_how_far_it_is_felt(fresh_series60_70: ah.Hull) -> None:
+    """What was given, else three spacings of the points; nothing of a move or on a flat."""
+    hull, point = fresh_series60_70, "WL 0.625 x ST 16"
+    assert hull.drag(point, radius=(20.0, 8.0)).radius == (20.0, 8.0)
+    usual = hull.drag(point).radius
+    assert usual is not None
+    assert 1.0 < usual[0] < 5.0
+    assert hull.drag(point, "move").radius is None
+    flat = next(name for name in hull.points if name.startswith("ST 10 x flat of bottom"))
+    with hull.drag(flat) as drag:
+        (reason,) = drag.to(d=0.01).refused
+    assert drag.radius is None
+    assert reason.startswith(hull.points[flat].crossing.name)  # type: ignore[union-attr]

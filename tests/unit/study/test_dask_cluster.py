@@ -12,7 +12,7 @@ import pytest
 from distributed import Client, LocalCluster
 
 import assoc_hull as ah
-from assoc_hull.study import Study
+from assoc_hull.study import Study, dask_cluster
 
 OUTPUTS = ["volume", "kmt"]
 ASKED: dict[str, Any] = {
@@ -61,6 +61,27 @@ def test_workers_that_die_lose_no_row_and_double_none(
         assert client.status == "running"
     assert found.rows == here.rows
     assert not found.interrupted
+
+
+def test_workers_that_say_nothing_are_not_waited_for(
+    hull: ah.Hull, here: Study, cluster: LocalCluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They stand still, and the scheduler believes that they work; later all goes on."""
+    monkeypatch.setattr(dask_cluster, "_STALL", 0.2)
+    with Client(cluster, set_as_default=False) as client:
+        pids = list(client.run(os.getpid).values())
+
+        def stop(what: str, done: int, of: int) -> None:
+            for pid in pids:
+                os.kill(pid, signal.SIGSTOP)
+
+        try:
+            with pytest.raises(ah.errors.ClusterError, match=r"said nothing \d times over rows"):
+                hull.study(**ASKED, cluster=client, progress=stop)
+        finally:
+            for pid in pids:
+                os.kill(pid, signal.SIGCONT)
+        assert hull.study(**ASKED, cluster=client).rows == here.rows
 
 
 def test_a_scheduler_that_goes_away_is_told_and_the_same_call_goes_on(

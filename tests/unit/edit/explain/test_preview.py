@@ -151,6 +151,34 @@ def test_shapes_are_those_the_edit_would_leave(hull: ah.Hull) -> None:
     assert hull.preview([]).shapes is None
 
 
+def test_a_fair_answer_is_seen_beside_the_plain_field(series60_70: ah.Hull) -> None:
+    """Shapes and sign changes of both: each as if it were asked for alone."""
+    asked = {"op": "pull", "point": "WL 0.75 x ST 15", "d": 0.02}
+    both = series60_70.preview([{**asked, "fair": True}], shapes=True)
+    alone = series60_70.preview([asked], shapes=True)
+    assert alone.plain is None
+    assert both.plain is not None
+    assert (both.plain.fingerprint, both.plain.lines) == (alone.fingerprint, alone.lines)
+    one, other = both.plain.shapes, alone.shapes
+    assert one is not None
+    assert other is not None
+    np.testing.assert_array_equal(one.spline.xyz, other.spline.xyz)
+    assert both.report is not None
+    assert both.plain.report is not None
+    assert (both.report.inflections, len(both.plain.report.inflections)) == ((), 2)
+    assert str(both).endswith("; 0 new changes of the sign of curvature, 4 with the plain field")
+    again = pickle.loads(pickle.dumps(both))
+    assert again.plain.report.inflections == both.plain.report.inflections
+
+
+def test_both_tell_why_they_are_refused(hull: ah.Hull) -> None:
+    """By 9 m neither goes: both say why."""
+    found = hull.preview([{"op": "pull", "point": POINT, "d": 9.0, "fair": True}], measure=False)
+    assert found.refused
+    assert found.plain is not None
+    assert found.plain.refused
+
+
 def test_a_preview_waits_for_the_end_of_an_open_edit(hull: ah.Hull) -> None:
     """It would show what that edit has not published."""
     with hull.edit("open"), pytest.raises(BadInputError, match="an edit is open"):

@@ -279,6 +279,18 @@ def test_features_and_flats_are_in_the_way(shipped: Shipped) -> None:
         assert words in text
 
 
+@pytest.mark.parametrize("radius", [2.0, 500.0])
+def test_a_flat_is_told_before_a_radius_that_would_fit(shipped: Shipped, radius: float) -> None:
+    """Who took the radius of the message would be refused for the flat after all."""
+    ask = partial(_round, "ST 8", "ST 8 x BTK 16", "ST 8 x WL 5", radius)
+    text = refused(shipped("bulk_carrier"), ask, BlockedRunError)
+    assert "points of a flat lie in the run" in text
+
+
+def _round(line: str, a: str, b: str, radius: float, edit: Edit) -> None:
+    edit.round(line, a, b, radius=radius)
+
+
 def test_an_end_that_cannot_be_held_is_made_shared_first(fresh_series60_70: ah.Hull) -> None:
     """As the message says; what cannot be held within the run is watched, and told."""
     hull = fresh_series60_70

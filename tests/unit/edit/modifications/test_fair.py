@@ -339,6 +339,10 @@ WRONG: dict[str, tuple[Ask, type[AssocHullError], str]] = {
         lambda h: h.fair(noise=0.001, at=(200.0, 0.0, 0.0), radius=(1.0, 1.0)), BadInputError,
         "nothing to move.*on the profile",
     ),
+    "all kept": (
+        lambda h: h.fair(noise=0.001, keep=[*h.groups["sections"].lines]), BadInputError,
+        r"nothing to move.*keep names all 171 points that could move \(.* and 166 more\); keep few",
+    ),
     "noise": (lambda h: h.fair(noise=-0.001), BadInputError, "above 0"),
     "word": (lambda h: h.fair(**{"noise": "much"}), BadInputError, "auto"),
     "tolerance": (lambda h: h.fair(noise=0.001, tolerance=0.0), BadInputError, "above 0"),
@@ -368,6 +372,45 @@ def test_what_is_wrong_is_said(case: str) -> None:
         ask(hull)
     assert hull.fingerprint == print_
     assert hull.history == ()
+
+
+def test_edits_that_since_takes_back_are_named() -> None:
+    """Points and edits, not fairing itself; in a window only what lies there."""
+    hull = ah.examples.wigley()
+    hull.fair(noise=0.2e-3)
+    hull.checkpoint("as drawn")
+    assert not hull.fair(noise=0.2e-3, since="as drawn", dry_run=True).found.taken_back
+    with hull.edit("a fuller shoulder") as edit:
+        edit.move("WL 2.5 x ST 7", y=hull.points["WL 2.5 x ST 7"].y + 0.02)
+    hull.fair(noise=0.2e-3)
+    report = hull.fair(noise=0.2e-3, since="as drawn", dry_run=True)
+    (point,) = report.found.taken_back
+    assert (point.point, report.found.taken_back_edits) == ("WL 2.5 x ST 7", ("a fuller shoulder",))
+    # a point that is put somewhere is given there, whatever fairing had taken it to
+    assert point.distance == pytest.approx(0.02, abs=0.1e-3)
+    words = "taken back: 1 point moved by 'a fuller shoulder' since the checkpoint"
+    assert any(
+        note.startswith(words) and "WL 2.5 x ST 7 (20.0 mm)" in note for note in report.notes
+    )
+    away = hull.fair(noise=0.2e-3, since="as drawn", at="WL 2.5 x ST 16", radius=(10, 2),
+                     dry_run=True)  # fmt: skip
+    assert not away.found.taken_back
+    assert not hull.fair(noise=0.2e-3, dry_run=True).found.taken_back
+
+
+def test_far_too_much_noise_is_noted() -> None:
+    """From three times what the lines look like; what is estimated cannot be."""
+    hull = ah.examples.wigley()
+    with hull.edit("read off to 5 mm") as edit:
+        for crossing in hull.crossings.values():
+            if crossing.role == "shared" and crossing.points[0].y > 0.1:
+                point = crossing.points[0]
+                edit.move(point, y=round(point.y * 200) / 200)
+    look = hull.fair(noise="auto", dry_run=True)
+    for times, noted in ((2.5, False), (3.5, True)):
+        report = hull.fair(noise=times * look.noise, dry_run=True)
+        assert any("costs shape" in note for note in report.notes) is noted
+    assert not any("costs shape" in note for note in look.notes)
 
 
 def test_a_hull_that_would_fold_is_refused_with_a_way_out(shipped: Shipped) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.checks.update_findings import plane_normals
-from assoc_hull.edit.displacement_field import on_flat, on_profile
+from assoc_hull.edit.displacement_field import level_with_flats, on_flat, on_profile
 from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.net_battens import fairable_rows
 from assoc_hull.edit.session import Edit
@@ -19,6 +19,7 @@ from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.hull import Hull
+from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.tables import HullState
 from tests.conftest import Shipped
@@ -303,3 +304,55 @@ def test_flats_and_the_profile_are_not_led(carrier: Hull) -> None:
         edit.reshape(line, [place], span=(70.0, 110.0), fair=True)
     with pytest.raises(PointRoleError, match="profile"), carrier.edit("x") as edit:
         edit.pull("ST 0.5 x profile #3", 0.02, fair=True)
+
+
+def test_a_pull_on_a_flat_is_told_of_one_that_works(fresh_series60_70: Hull) -> None:
+    """Across flats only the plain field goes; on the profile that helps nothing."""
+    hull = fresh_series60_70
+    told = pytest.raises(PointRoleError, match=r"^WL 1 x ST 10 .* across_flats=True, without fair$")
+    with told, hull.edit("x") as edit:
+        edit.pull("WL 1 x ST 10", 0.01, fair=True)
+    with hull.edit("x") as edit:
+        edit.pull("WL 1 x ST 10", 0.01, across_flats=True)
+    name = next(name for name in hull.points if name.startswith("ST 1 x profile"))
+    for fair in (False, True):
+        beside = pytest.raises(PointRoleError, match=r"pull a point beside it$")
+        with beside, hull.edit("x") as edit:
+            edit.pull(name, 0.01, fair=fair)
+
+
+def test_the_default_radius_is_felt_where_lines_run_along_the_ship() -> None:
+    """Amidships chords of waterlines, seen along the ship, are nearly nil: they tell nothing."""
+    hull = ah.examples.wigley()
+    for name in ("WL 1.25 x ST 10", "WL 2.5 x ST 10", "WL 3.75 x ST 10"):
+        with hull.edit("pull") as edit:
+            edit.pull(name, 0.02)
+        assert edit.report is not None
+        assert len(edit.report.relofted) > 3, "more than the lines of the point itself"
+        hull.undo()
+
+
+def test_a_fair_pull_reaches_the_sections_beside_it() -> None:
+    """They stand 5 m apart, points of a section half a metre: the radius reaches none of them."""
+    hull = ah.examples.wigley()
+    beside = ["WL 2.5 x ST 6", "WL 2.5 x ST 8"]
+    before = [hull.points[name].y for name in beside]
+    with hull.edit("pull") as edit:
+        edit.pull("WL 2.5 x ST 7", 0.02, fair=True)
+    moved = [hull.points[name].y - y for name, y in zip(beside, before, strict=True)]
+    assert min(moved) > 1e-3
+
+
+def test_a_point_beside_a_flat_by_the_last_digit_is_refused_as_one_on_it() -> None:
+    """Measured hulls have such points; what lies off it by more, or at a slope, is none."""
+    hull = ah.examples.bulk_carrier_207k()
+    state = hull.state
+    rows = fairable_rows(state)
+    level = level_with_flats(state, rows, hull_normals(state)[rows])
+    off = np.abs(state.rows.xyz.data[rows, 1] - 0.5 * hull.particulars.breadth)
+    assert level.any()
+    assert (off[level] < 1e-3).all()
+    assert not level_with_flats(state, rows, np.tile([0.01, 1.0, 0.0], (len(rows), 1))).any()
+    name = address(state, int(rows[level][0]))
+    with pytest.raises(PointRoleError, match="on a flat"), hull.edit("pull") as edit:
+        edit.pull(name, 0.02, fair=True)

@@ -515,3 +515,22 @@ def test_a_mistake_that_is_caught_leaves_the_edit_as_it_was(wigley: Hull) -> Non
     assert edit.report is not None
     assert not edit.report.led
     assert not any("placed" in name for name in wigley.points)
+
+
+@pytest.mark.parametrize("gone", ["ST 7", "WL 2.5"])
+def test_a_line_that_goes_after_its_point_was_asked_for_is_refused(wigley: Hull, gone: str) -> None:
+    """It says so, and two edits do it."""
+    before = wigley.fingerprint
+    asked = [("WL 2.5 x ST 7", np.add(wigley.points["WL 2.5 x ST 7"].position, (0, 0.005, 0)))]
+    script: list[dict[str, object]] = [
+        {"op": "lead", "line": "WL 2.5", "points": asked},
+        {"op": "remove_line", "line": gone},
+    ]
+    with pytest.raises(BadInputError, match="use two edits"):
+        wigley.apply("both", script)
+    assert wigley.fingerprint == before
+    with wigley.edit("lead") as edit:
+        edit.lead("WL 2.5", asked)
+    with wigley.edit("remove") as edit:
+        edit.remove_line(gone)
+    assert wigley.check() == ()

@@ -14,6 +14,7 @@ from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import Particulars
 from assoc_hull.plot import combs_plan
 from assoc_hull.plot.lines_plan.drawing import drawing, given_lines
+from assoc_hull.plot.sheet.paper import PaperName
 from tests import meshes
 
 Lines = Callable[[Figure, str], list[FloatArray]]
@@ -31,16 +32,22 @@ def test_every_line_has_its_comb_once(bulk_carrier: Hull, lines_of: Lines) -> No
                 assert len(found) == twice * len(line.splines), line.name
 
 
-def test_teeth_are_as_long_as_curvature_and_cut_where_too_long(lines_of: Lines) -> None:
-    """Circular sections of 5 and 10 m: teeth of 6 mm and half of it, outward from the curve."""
+@pytest.mark.parametrize(("paper", "scale"), [("A3", 0.3), ("A4", 0.3), ("A1", 0.2)])
+def test_teeth_are_as_long_as_the_stated_scale_says(
+    paper: PaperName, scale: float, lines_of: Lines
+) -> None:
+    """Circular sections of 5 and 10 m: teeth outward, as the scale says on each paper."""
     angle = np.linspace(-0.5 * np.pi, 0.0, 90)
     ship = Particulars("pipes", 30.0, 20.0, 10.0, 5.0)
     sources = []
     for x, radius in ((20.0, 5.0), (25.0, 10.0)):
         places = [np.full(90, x), radius * np.cos(angle), radius * np.sin(angle) + 10.0]
         sources.append(LineSource.make("sections", f"ST {x:g}", np.column_stack(places)))
-    figure = combs_plan(given_lines(sources, ship))
-    for name, long in (("ST 20", 6.0), ("ST 25", 3.0)):
+    figure = combs_plan(given_lines(sources, ship), paper=paper)
+    stated = [text.get_text() for text in figure.axes[0].texts if "BODY" in text.get_text()]
+    assert stated[0].endswith(f"tooth of 10 mm: {scale:g} 1/m")
+    for name, radius in (("ST 20", 5.0), ("ST 25", 10.0)):
+        long = 10.0 / (scale * radius)
         (teeth,) = lines_of(figure, f"teeth/{name}$")
         foot, tip = teeth[0::3], teeth[1::3]
         length = np.hypot(*(tip - foot).T)[20:-20]  # ends of a spline are free

@@ -1,0 +1,385 @@
+"""The hull behind the page: one thread that works on it, and what every connection asks of it.
+
+`Session.submit` takes messages from any thread, and returns at once; the worker answers by
+`Client.tell`. Of the places that one gesture asks for only the newest waits: an older one that was
+not begun is dropped, so the worker is never behind the hand by more than one step.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import logging
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator
+from typing import Any, ClassVar, Protocol, cast
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.drag import Drag, DragWay, Live
+from assoc_hull.edit.hull_normals import hull_normals
+from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.shapes import joined
+from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError, StaleHullError
+from assoc_hull.hull.hull import Hull
+from assoc_hull.model.address import address
+from assoc_hull.model.objects import Point
+from assoc_hull.page.describe import describe_net, describe_state
+from assoc_hull.page.messages import (
+    Apply,
+    Begin,
+    Cancel,
+    Check,
+    Commit,
+    Hello,
+    Message,
+    Redo,
+    Sign,
+    To,
+    Undo,
+)
+from assoc_hull.page.wire import Frame, FrameKind, pack
+
+__all__ = ["Client", "Session"]
+
+_LOG = logging.getLogger("assoc_hull.page")
+
+
+class Client(Protocol):
+    """One connection: what a session knows of it."""
+
+    author: str
+
+    def tell(self, message: str | bytes) -> None:
+        """Send a message; from any thread, without waiting."""
+
+
+@attrs.define(eq=False)
+class _Gesture:
+    """A point that somebody holds; `let_go` once its end was asked for."""
+
+    client: Client
+    number: int
+    row: int
+    drag: Drag
+    place: list[float]
+    let_go: bool = False
+
+
+class Session:
+    """A hull that pages show and edit; `close` ends its thread.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull; nobody else may edit it while the session lives.
+    """
+
+    def __init__(self, hull: Hull) -> None:
+        self.hull = hull
+        self._clients = list[Client]()
+        self._gesture: _Gesture | None = None
+        self._jobs = deque[tuple[Client, Message | None]]()
+        self._awake = threading.Condition()
+        self._open = True
+        self._faults = 0
+        self._worker = threading.Thread(target=self._work, name="assoc-hull page", daemon=True)
+        self._worker.start()
+
+    # ----------------------------------------------------------------------------------
+    # From any thread.
+
+    def submit(self, client: Client, message: Message) -> None:
+        """Ask for something; the answer comes to the client."""
+        with self._awake:
+            if isinstance(message, To):
+                self._drop_older(client, message.gesture)
+            if isinstance(message, Commit | Cancel):
+                held = self._held(client, message.gesture)
+                if held is not None:
+                    held.let_go = True
+                    held.drag.stop()
+            self._jobs.append((client, message))
+            self._awake.notify()
+
+    def _drop_older(self, client: Client, gesture: int) -> None:
+        """Forget the place that a gesture asked for last, if nobody has begun with it."""
+        for index in range(len(self._jobs) - 1, -1, -1):
+            whose, waiting = self._jobs[index]
+            if whose is client and type(waiting) is To and waiting.gesture == gesture:
+                del self._jobs[index]
+                return
+
+    def leave(self, client: Client) -> None:
+        """Forget a connection that has ended, and what it holds."""
+        with self._awake:
+            self._jobs.append((client, None))
+            self._awake.notify()
+
+    def close(self) -> None:
+        """End the thread, when the command that runs is done."""
+        with self._awake:
+            self._open = False
+            self._awake.notify()
+        self._worker.join()
+
+    # ----------------------------------------------------------------------------------
+    # In the worker.
+
+    def _work(self) -> None:
+        while (job := self._next()) is not None:
+            client, message = job
+            if message is None:
+                self._forget(client)
+                continue
+            with self._told(client, message):
+                self._acts[type(message)](self, client, message)
+        self._end_gesture()
+
+    def _next(self) -> tuple[Client, Message | None] | None:
+        with self._awake:
+            self._awake.wait_for(lambda: self._jobs or not self._open)
+            return self._jobs.popleft() if self._jobs and self._open else None
+
+    @contextlib.contextmanager
+    def _told(self, client: Client, message: Message) -> Iterator[None]:
+        """Tell whatever fails, as a problem; a gesture that fails is over."""
+        try:
+            yield
+        except StaleHullError as error:
+            self._end_gesture()
+            self._take_over(client, message, error)
+        except AssocHullError as error:
+            self._problem(client, message, str(error))
+        except Exception as error:  # a page that falls silent is of no use to a designer
+            self._faults += 1
+            _LOG.exception("fault %d of the page's session", self._faults)
+            what = f"an error of this program (number {self._faults} in its log): "
+            self._problem(client, message, f"{what}{type(error).__name__} {error}")
+
+    def _take_over(self, client: Client, message: Message, error: StaleHullError) -> None:
+        """Show what another process has committed, and say that nothing else was done."""
+        before = self.hull.state_number
+        self.hull.refresh()
+        self._publish(before)
+        newer = ", ".join(error.newer[-3:]) or "an undo or a redo"
+        text = f"another program has changed the hull ({newer}): it is shown now, and your edit "
+        self._problem(client, message, f"{text}was not made; look, and do it again")
+
+    def _problem(self, client: Client, message: Message, text: str) -> None:
+        number = getattr(message, "gesture", 0)
+        if isinstance(message, Begin | To | Cancel):
+            self._end_gesture()
+        answer = {"t": "problem", "id": getattr(message, "id", 0), "gesture": number, "text": text}
+        _send(client, answer)
+
+    def _forget(self, client: Client) -> None:
+        if self._gesture is not None and self._gesture.client is client:
+            self._end_gesture()
+        self._clients = [each for each in self._clients if each is not client]
+
+    def _hello(self, client: Client, message: Hello) -> None:
+        client.author = message.author
+        self._clients.append(client)
+        path = self.hull.path
+        file = None if path is None else path.name
+        _send(client, {"t": "session", "author": client.author, "file": file})
+        self._tell_net([client])
+
+    def _sign(self, client: Client, message: Sign) -> None:
+        client.author = message.author
+        _send(client, describe_state(self.hull.document, client.author))
+
+    def _begin(self, client: Client, message: Begin) -> None:
+        if (text := self._held_by_other(client)) is not None:
+            self._refuse(client, message.gesture, 0, (text,), None)
+            return
+        self._end_gesture()
+        state = self.hull.state
+        if message.row >= state.rows.count or not state.rows.alive[message.row]:
+            what, remedy = f"there is no point {message.row}", "reload the page"
+            raise BadInputError(what, "in begin", remedy)
+        radius = None if message.radius is None else (message.radius[0], message.radius[1])
+        point, how = Point.of(state, message.row), cast(DragWay, message.how)
+        drag = self.hull.drag(point, how, radius)
+        place = drag.start.tolist()
+        self._gesture = _Gesture(client, message.gesture, message.row, drag, place)
+        if how == "move" and not drag.free:
+            # The library says why, and what may be moved instead.
+            self._refuse(client, message.gesture, 0, drag.to(y=place[1]).refused, message.row)
+            self._end_gesture()
+            return
+        _send(client, {
+            "t": "grip", "gesture": message.gesture, "row": message.row, "start": place,
+            "free": "".join(drag.free),
+            "normal": None if drag.normal is None else drag.normal.tolist(),
+            "radius": None if drag.radius is None else list(drag.radius),
+        })  # fmt: skip
+
+    def _held_by_other(self, client: Client) -> str | None:
+        """Say who else has a point in hand: nobody takes the hull from under it."""
+        if (held := self._gesture) is None or held.client is client:
+            return None
+        name = address(self.hull.state, held.row)
+        return f"{held.client.author} holds {name}; wait until it is let go"
+
+    def _require_free(self, client: Client, act: str) -> None:
+        if (text := self._held_by_other(client)) is not None:
+            who, _, remedy = text.partition("; ")
+            raise BadInputError(who, f"in {act}", remedy)
+
+    def _held(self, client: Client, gesture: int) -> _Gesture | None:
+        held = self._gesture
+        if held is None or held.client is not client or held.number != gesture:
+            return None
+        return held
+
+    def _to(self, client: Client, message: To) -> None:
+        if (held := self._held(client, message.gesture)) is None:
+            return  # it was let go meanwhile
+        live = held.drag.to(**message.amounts)
+        if held.let_go:
+            return  # nobody waits for the answer, which may be that it was stopped
+        if live.refused:
+            self._refuse(client, message.gesture, message.seq, live.refused, held.row)
+        else:
+            client.tell(pack(self._live(held.number, message.seq, live)))
+
+    def _live(self, gesture: int, sequence: int, live: Live) -> Frame:
+        state, lcb = self.hull.state, live.lcb_change
+        way = (live.xyz - state.rows.xyz[live.rows]) * hull_normals(state)[live.rows]
+        return Frame(
+            FrameKind.LIVE, state.number, live.curves, live.spline, live.rows, live.xyz, gesture,
+            sequence, bool(live.born or live.gone), live.seconds, live.volume_change,
+            lcb if np.isfinite(lcb) else 0.0, float(np.abs(way.sum(axis=1)).max(initial=0.0)),
+        )  # fmt: skip
+
+    def _refuse(
+        self, client: Client, gesture: int, sequence: int, reasons: tuple[str, ...],
+        row: int | None, number: int = 0,
+    ) -> None:  # fmt: skip
+        _send(client, {"t": "refused", "gesture": gesture, "seq": sequence, "id": number,
+                       "reasons": list(reasons), "row": row})  # fmt: skip
+
+    def _commit(self, client: Client, message: Commit) -> None:
+        if (held := self._held(client, message.gesture)) is None:
+            what = "the point was let go before"
+            raise BadInputError(what, f"in {message.name}", "take hold of it again")
+        live = held.drag.to(**message.amounts)
+        if live.refused:
+            self._refuse(client, message.gesture, message.seq, live.refused, held.row)
+            self._end_gesture()
+            return
+        self._edit(client, lambda: held.drag.commit(message.name), gesture=message.gesture)
+
+    def _cancel(self, client: Client, message: Cancel) -> None:
+        if self._held(client, message.gesture) is not None:
+            self._end_gesture()
+
+    def _end_gesture(self) -> None:
+        if self._gesture is not None:
+            self._gesture.drag.__exit__(None, None, None)
+        self._gesture = None
+
+    def _apply(self, client: Client, message: Apply) -> None:
+        def carry_out() -> EditReport:
+            report = self.hull.apply(message.name, message.ops)
+            assert report is not None, "no edit is open here that it could have joined"
+            return report
+
+        self._require_free(client, "an edit")
+        try:
+            self._edit(client, carry_out, number=message.id)
+        except RefusedEditError as error:
+            self._refuse(client, 0, 0, error.findings, None, message.id)
+
+    def _edit(
+        self, client: Client, act: Callable[[], EditReport], *, gesture: int = 0, number: int = 0
+    ) -> None:
+        """Make an edit in the name of a client; tell everybody, and the client what it did."""
+        before, name = self.hull.state_number, self.hull.author
+        self.hull.author = client.author
+        try:
+            report = act()
+        finally:
+            self.hull.document.author = name  # which may be empty
+        self._end_gesture()
+        self._publish(before)
+        normal = report.largest_normal
+        _send(client, {
+            "t": "done", "id": number, "gesture": gesture, "name": report.name,
+            "relofted": len(report.relofted), "inflections": sum(n for _, n in report.inflections),
+            "normal": None if normal is None else normal.distance,
+            "notes": list(report.notes),
+        })  # fmt: skip
+
+    def _undo(self, client: Client, message: Undo) -> None:
+        self._require_free(client, "undo")
+        before = self.hull.state_number
+        self.hull.undo(author=client.author)
+        self._turned(client, before, message.id)
+
+    def _redo(self, client: Client, message: Redo) -> None:
+        self._require_free(client, "redo")
+        before = self.hull.state_number
+        self.hull.redo()
+        self._turned(client, before, message.id)
+
+    def _turned(self, client: Client, before: int, number: int) -> None:
+        """Show a state that was there before."""
+        self._end_gesture()
+        self._publish(before)
+        _send(client, {"t": "answer", "id": number, "value": None})
+
+    def _check(self, client: Client, message: Check) -> None:
+        found = [
+            {"kind": each.kind, "object": each.object, "place": each.place, "text": str(each)}
+            for each in self.hull.check()
+        ]
+        _send(client, {"t": "answer", "id": message.id, "value": found})
+
+    def _publish(self, before: int) -> None:
+        """Tell everybody what has changed since a state."""
+        changed, state = self.hull.since(before), self.hull.state
+        if changed.structural:
+            self._tell_net(self._clients)
+            return
+        curves = changed.curves[state.curves.alive[changed.curves]]
+        # Watched points follow their curves, and are no part of what an edit tells of itself.
+        rows = state.live("rows")
+        follows = np.isin(state.rows.curve[rows], curves).any(axis=1)
+        rows = rows[follows | np.isin(rows, changed.rows)]
+        spline = joined([state.spline(curve) for curve in curves.tolist()])
+        frame = Frame(FrameKind.PUBLISHED, state.number, curves, spline, rows, state.rows.xyz[rows])
+        self._tell_all(self._clients, pack(frame))
+
+    def _tell_net(self, clients: list[Client]) -> None:
+        """Tell all of the hull."""
+        state, shapes = self.hull.state, self.hull.shapes()
+        rows = state.live("rows")
+        text = _text(describe_net(state))
+        frame = pack(Frame(FrameKind.NET, state.number, shapes.curves, shapes.spline, rows,
+                           state.rows.xyz[rows], structural=True))  # fmt: skip
+        for client in clients:
+            client.tell(text)
+        self._tell_all(clients, frame)
+
+    def _tell_all(self, clients: list[Client], frame: bytes) -> None:
+        for client in clients:
+            client.tell(frame)
+            _send(client, describe_state(self.hull.document, client.author))
+
+    _acts: ClassVar[dict[type[Any], Callable[[Session, Client, Any], None]]] = {
+        Hello: _hello, Sign: _sign, Begin: _begin, To: _to, Commit: _commit, Cancel: _cancel,
+        Apply: _apply, Undo: _undo, Redo: _redo, Check: _check,
+    }  # fmt: skip
+
+
+def _send(client: Client, message: dict[str, Any]) -> None:
+    client.tell(_text(message))
+
+
+def _text(message: dict[str, Any]) -> str:
+    return json.dumps(message, separators=(",", ":"), allow_nan=False)

@@ -1,0 +1,94 @@
+// The table of all actions: what they are called, by which keys, whether they can be done now.
+// Buttons, keys and the sheet of keys read it.
+
+/** @typedef {import("./page.js").Page} Page */
+/** @typedef {{id: string, words: string, keys: string[], label?: (page: Page) => string, pressed?: (page: Page) => boolean, enabled?: (page: Page) => boolean, run: (page: Page) => void}} Action */
+
+const SQUEEZES = [1, 2, 5, 10];
+
+/** @param {"combs" | "allCombs" | "movement" | "labels" | "points"} what @param {string} words @param {string} key @returns {Action} */
+const toggle = (what, words, key) => ({
+  id: what, words, keys: [key], pressed: (page) => page.store.show[what],
+  run: (page) => {
+    page.store.show[what] = !page.store.show[what];
+    page.store.changed("hull", "overlay", "panel");
+    page.keep();
+  },
+});
+
+/** @param {import("./view.js").Kind} kind @param {string} key @param {string} words @returns {Action} */
+const enlarge = (kind, key, words) => ({
+  id: `view-${kind}`, words, keys: [key], pressed: (page) => page.store.maximised === kind,
+  run: (page) => page.maximise(kind),
+});
+
+/** @param {number} factor @param {string} words @param {string} key @returns {Action} */
+const gain = (factor, words, key) => ({
+  id: factor > 1 ? "combs-longer" : "combs-shorter", words, keys: [key],
+  enabled: (page) => page.store.show.combs,
+  run: (page) => {
+    page.store.gain = Math.min(Math.max(page.store.gain * factor, 0.05), 20);
+    page.store.changed("overlay");
+    page.keep();
+  },
+});
+
+/** @type {Action[]} */
+export const ACTIONS = [
+  {id: "pull", words: "Pull: the hull around follows", keys: ["u"], label: () => "Pull", pressed: (page) => page.store.tools.how === "pull", run: (page) => page.use("pull")},
+  {id: "move", words: "Move: the point alone, along its freedom", keys: ["p"], label: () => "Move", pressed: (page) => page.store.tools.how === "move", run: (page) => page.use("move")},
+  {id: "fine", words: "Fine: the point goes a tenth of the way of the hand", keys: ["e"], label: () => "Fine", pressed: (page) => page.store.tools.fine, run: (page) => page.toggleFine()},
+  {id: "undo", words: "Undo your last edit", keys: ["Ctrl+z"], label: () => "Undo", enabled: (page) => page.hand.free && page.store.history.undo !== null, run: (page) => page.undo()},
+  {id: "redo", words: "Redo what was taken back", keys: ["Ctrl+Shift+z", "Ctrl+y"], label: () => "Redo", enabled: (page) => page.hand.free && page.store.history.redo !== null, run: (page) => page.redo()},
+  toggle("combs", "Curvature combs", "k"),
+  toggle("allCombs", "Combs on all curves that follow", "Shift+k"),
+  gain(1.25, "Longer combs", "+"),
+  gain(0.8, "Shorter combs", "-"),
+  toggle("movement", "Movement, magnified", "m"),
+  toggle("labels", "Labels", "b"),
+  toggle("points", "All points", "d"),
+  {id: "compress", words: "Compress lengths by 1, 2, 5, 10", keys: ["c"], label: (page) => page.store.squeeze === 1 ? "Compress" : `Compress × ${page.store.squeeze}`, pressed: (page) => page.store.squeeze !== 1,
+    run: (page) => page.compress(SQUEEZES[(SQUEEZES.indexOf(page.store.squeeze) + 1) % SQUEEZES.length])},
+  {id: "fit", words: "Show all of the hull", keys: ["0"], label: () => "Fit", run: (page) => page.fit()},
+  {id: "fit-selection", words: "Show what is chosen", keys: ["f"], enabled: (page) => page.store.selection.row !== null || page.store.selection.curve !== null, run: (page) => page.fly(4)},
+  {id: "zoom-in", words: "Nearer", keys: ["="], run: (page) => page.zoom(1.25)},
+  {id: "zoom-out", words: "Farther", keys: ["_"], run: (page) => page.zoom(0.8)},
+  enlarge("body", "1", "Body plan alone, and back"),
+  enlarge("profile", "2", "Profile alone, and back"),
+  enlarge("half", "3", "Half-breadth plan alone, and back"),
+  enlarge("wire", "4", "Wire alone, and back"),
+  {id: "next-point", words: "Next point of the curve", keys: ["]"], run: (page) => page.step(1)},
+  {id: "previous-point", words: "Previous point of the curve", keys: ["["], run: (page) => page.step(-1)},
+  {id: "next-curve", words: "Next curve of the view", keys: ["}"], run: (page) => page.stepCurve(1)},
+  {id: "previous-curve", words: "Previous curve of the view", keys: ["{"], run: (page) => page.stepCurve(-1)},
+  {id: "find", words: "Find a point or a line by its name", keys: ["/"], run: (page) => page.search()},
+  {id: "point-table", words: "Table of the points of the line", keys: ["a"], run: (page) => page.panel.open("Points")},
+  {id: "problems", words: "What is wrong with the hull", keys: ["Shift+p"], run: (page) => {
+    page.panel.open("Problems");
+    page.panel.problems.ask();
+  }},
+  {id: "theme", words: "Light, dark, or as the system", keys: ["t"], label: () => "Theme", run: (page) => page.nextTheme()},
+  {id: "keys", words: "All keys", keys: ["?"], label: () => "Keys", run: (page) => page.sheet()},
+];
+
+/** What was pressed, as the table writes it. @param {KeyboardEvent} event */
+export function keyName(event) {
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key, parts = [];
+  if (event.ctrlKey || event.metaKey) parts.push("Ctrl");
+  // Shift is part of a sign, and a key of its own beside a letter.
+  if (event.shiftKey && (/^[a-z]$/.test(key) || key.length > 1)) parts.push("Shift");
+  if (event.altKey && key.length > 1) parts.push("Alt");
+  return [...parts, key].join("+");
+}
+
+/** @param {Page} page @param {string} key */
+export function actionOf(page, key) {
+  const found = ACTIONS.find(({keys}) => keys.includes(key));
+  return found && (found.enabled?.(page) ?? true) ? found : undefined;
+}
+
+/** @param {string} key */
+export function keyWords(key) {
+  if (key === "+") return key;
+  return key.split("+").map((part) => /^[a-z]$/.test(part) ? part.toUpperCase() : part).join(" + ");
+}

@@ -1,0 +1,33 @@
+// A refusal at its place: the library's sentence beside the point, on the free side.
+
+/** @typedef {import("./page.js").Page} Page */
+
+const WIDE = 340, REASONS = 3;
+
+/** @param {Page} page */
+export function placeBubble(page) {
+  const {store} = page, {refusal} = store, view = page.activeView();
+  let bubble = /** @type {HTMLElement | null} */ (page.root.querySelector(".bubble"));
+  if (!refusal) return bubble?.remove();
+  if (!bubble) {
+    bubble = document.createElement("div");
+    bubble.className = "bubble";
+  }
+  if (bubble.parentElement !== view.element) view.element.append(bubble);
+  const words = shortened(refusal.text);
+  if (bubble.textContent !== words) bubble.textContent = words;
+  const [x, y] = refusal.place && view.kind !== "wire" ? view.atPlace(refusal.place) : [view.width / 2, 40];
+  const wide = Math.min(WIDE, view.width - 16);
+  bubble.style.maxWidth = `${wide}px`;
+  const right = x < view.width / 2, below = y < view.height / 2;
+  bubble.style.left = right ? `${Math.min(Math.max(x + 18, 8), Math.max(view.width - wide - 8, 8))}px` : "auto";
+  bubble.style.right = right ? "auto" : `${Math.min(Math.max(view.width - x + 18, 8), Math.max(view.width - wide - 8, 8))}px`;
+  bubble.style.top = below ? `${Math.min(Math.max(y + 18, 28), view.height - 60)}px` : "auto";
+  bubble.style.bottom = below ? "auto" : `${Math.min(Math.max(view.height - y + 18, 8), view.height - 60)}px`;
+}
+
+/** A pull that goes much too far folds every line: the first reasons tell enough. @param {string} text */
+function shortened(text) {
+  const reasons = text.split("\n"), more = reasons.length - REASONS;
+  return more > 0 ? [...reasons.slice(0, REASONS), `and ${more} more ${more === 1 ? "reason" : "reasons"}`].join("\n") : text;
+}

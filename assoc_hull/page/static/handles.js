@@ -1,0 +1,170 @@
+// Points, what the hand holds, where it may go, and how far the hull follows.
+
+import {ADOPTED, CROSSING, PLACED, SHARED, WATCHED} from "./net.js";
+
+/** @typedef {import("./view.js").View} View */
+/** @typedef {import("./net.js").Point} Point */
+/** @typedef {Record<string, string>} Ink */
+
+const CLOSE = 12; // px between the points of a view from which on all are drawn
+
+/** @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink */
+export function drawHandles(view, g, ink) {
+  const {store} = view, {net, selection, hover, held, show, refusal} = store;
+  if (!net) return;
+  const shown = new Set(view.rows());
+  const drawn = new Set(show.points || dense(view) ? shown : selection.curve === null ? [] : net.rowsOf.get(selection.curve) ?? []);
+  for (const row of drawn) if (shown.has(row)) dot(view, g, ink, row, 3, false);
+  if (refusal) for (const row of refusal.named) if (shown.has(row) && row !== refusal.row) outline(view, g, ink, row);
+  if (hover.row !== null && shown.has(hover.row)) dot(view, g, ink, hover.row, 4.5, true);
+  const chosen = held?.row ?? selection.row;
+  if (chosen === null || !shown.has(chosen)) return;
+  if (held) drawHeld(view, g, ink);
+  else {
+    dot(view, g, ink, chosen, 5.5, true);
+    ring(view, g, ink, chosen);
+  }
+}
+
+/** Whether points are so far apart on the screen that all can be drawn. @param {View} view */
+function dense(view) {
+  const area = [...view.rows()].filter((row) => {
+    const place = view.store.placeOf(row);
+    if (!place) return false;
+    const [x, y] = view.atPlace(place);
+    return x > 0 && y > 0 && x < view.width && y < view.height;
+  }).length;
+  return area > 0 && Math.sqrt(view.width * view.height / area) > 4 * CLOSE;
+}
+
+/** Focus is seen in the drawing. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {number} row */
+function ring(view, g, ink, row) {
+  const place = view.store.placeOf(row);
+  if (!place) return;
+  const [x, y] = view.atPlace(place);
+  g.beginPath();
+  g.arc(x, y, 10, 0, 7);
+  g.strokeStyle = ink.hot;
+  g.lineWidth = 1.2;
+  g.stroke();
+}
+
+/** @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {number} row */
+function outline(view, g, ink, row) {
+  const place = view.store.placeOf(row);
+  if (!place) return;
+  const [x, y] = view.atPlace(place);
+  g.strokeStyle = ink.hot;
+  g.lineWidth = 2;
+  g.strokeRect(x - 7, y - 7, 14, 14);
+}
+
+/** What sort of point it is, by its form; filled where the hand moves it, hollow where it is computed. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {number} row @param {number} r @param {boolean} strong */
+function dot(view, g, ink, row, r, strong) {
+  const place = view.store.placeOf(row), point = view.store.net?.points.get(row);
+  if (!place || !point) return;
+  const [x, y] = view.atPlace(place);
+  if (x < -9 || y < -9 || x > view.width + 9 || y > view.height + 9) return;
+  shape(g, point, x, y, r);
+  const own = point.sort !== CROSSING || point.role === SHARED;
+  g.fillStyle = own ? ink[strong ? "hot" : "ink"] : ink.paper;
+  g.fill();
+  g.strokeStyle = ink[strong ? "hot" : "ink"];
+  g.lineWidth = strong ? 1.8 : 1;
+  g.stroke();
+}
+
+/** @param {CanvasRenderingContext2D} g @param {Point} point @param {number} x @param {number} y @param {number} r */
+function shape(g, point, x, y, r) {
+  if (point.sort === PLACED || point.sort === ADOPTED) {
+    g.beginPath();
+    g.rect(x - r, y - r, 2 * r, 2 * r);
+  } else if (point.role === WATCHED) diamond(g, x, y, r + 1);
+  else {
+    g.beginPath();
+    g.arc(x, y, r, 0, 7);
+  }
+}
+
+/** The point in hand, its ways, the ring of a pull, and how far it is. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink */
+function drawHeld(view, g, ink) {
+  const {held, net} = view.store;
+  if (!held) return;
+  const side = view.side(held.start[0]), [x0, y0] = view.at(held.start[0], held.start[1], held.start[2], side);
+  const [x, y] = view.at(held.place[0], held.place[1], held.place[2], side);
+  g.strokeStyle = g.fillStyle = ink.hot;
+  if (held.how === "pull" && held.radius) {
+    const [rx, rg] = held.radius, flat = view.kind === "body";
+    g.globalAlpha = 0.7;
+    g.setLineDash([5, 4]);
+    g.lineWidth = 1;
+    g.beginPath();
+    g.ellipse(x0, y0, (flat ? rg : rx) * view.axis.s, rg * view.sy, 0, 0, 7);
+    g.stroke();
+    g.setLineDash([]);
+    g.globalAlpha = 1;
+  }
+  for (const way of waysOf(held)) arrows(view, g, way, side, x, y);
+  if (Math.hypot(x - x0, y - y0) > 2) {
+    g.lineWidth = 1;
+    g.beginPath();
+    g.moveTo(x0, y0);
+    g.lineTo(x, y);
+    g.stroke();
+  }
+  const point = net?.points.get(held.row);
+  if (point) shape(g, point, x, y, 6);
+  g.fillStyle = held.refused ? ink.paper : ink.hot;
+  g.lineWidth = 2;
+  g.fill();
+  g.stroke();
+  if (held.amount === null) return;
+  g.font = "600 12px system-ui, sans-serif";
+  g.textBaseline = "middle";
+  const text = `${held.amount >= 0 ? "+" : "−"}${(1e3 * Math.abs(held.amount)).toFixed(1)} mm`, w = g.measureText(text).width;
+  const left = x + 16 + w < view.width ? x + 16 : x - 16 - w;
+  g.lineWidth = 4;
+  g.strokeStyle = ink.paper;
+  g.strokeText(text, left, y - 14);
+  g.fillStyle = ink.hot;
+  g.fillText(text, left, y - 14);
+}
+
+/** @param {import("./store.js").Held} held @returns {number[][]} */
+function waysOf(held) {
+  if (held.how === "pull") return held.way ? [held.way] : [];
+  return [...held.free].map((name) => ["x", "y", "z"].map((each) => each === name ? 1 : 0));
+}
+
+/** @param {View} view @param {CanvasRenderingContext2D} g @param {number[]} way @param {number} side @param {number} x @param {number} y */
+function arrows(view, g, way, side, x, y) {
+  let [dx, dy] = view.seen(way, side);
+  const size = Math.hypot(dx, dy), whole = Math.hypot(way[0], way[1], way[2]);
+  if (size < 0.15 * whole * Math.min(view.axis.s, view.sy)) return;
+  dx /= size;
+  dy /= size;
+  g.lineWidth = 1.8;
+  for (const sign of [1, -1]) {
+    const ex = x + sign * 26 * dx, ey = y + sign * 26 * dy;
+    g.beginPath();
+    g.moveTo(x + sign * 10 * dx, y + sign * 10 * dy);
+    g.lineTo(ex, ey);
+    g.stroke();
+    g.beginPath();
+    g.moveTo(ex + sign * 7 * dx, ey + sign * 7 * dy);
+    g.lineTo(ex - 4 * dy, ey + 4 * dx);
+    g.lineTo(ex + 4 * dy, ey - 4 * dx);
+    g.closePath();
+    g.fill();
+  }
+}
+
+/** @param {CanvasRenderingContext2D} g @param {number} x @param {number} y @param {number} r */
+export function diamond(g, x, y, r) {
+  g.beginPath();
+  g.moveTo(x, y - r);
+  g.lineTo(x + r, y);
+  g.lineTo(x, y + r);
+  g.lineTo(x - r, y);
+  g.closePath();
+}

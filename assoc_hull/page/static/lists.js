@@ -1,0 +1,120 @@
+// Two lists in the panel: the points of the chosen curve, and what is wrong with the hull.
+
+/** @typedef {import("./page.js").Page} Page */
+/** @typedef {{kind: string, object: string, place: number[] | null, text: string}} Finding */
+
+/** Points of a curve in their order along it. @param {import("./store.js").Store} store @param {number} id @returns {number[]} */
+export function alongCurve(store, id) {
+  const c = store.curves.get(id), rows = store.net?.rowsOf.get(id) ?? [];
+  const where = (/** @type {number} */ row) => {
+    const place = store.places.get(row);
+    let best = 0, least = Infinity;
+    if (c && place) for (let i = 0; i + 1 < c.n; i++) {
+      const p = 3 * i, d = [0, 1, 2].map((j) => c.xyz[p + 3 + j] - c.xyz[p + j]), w = [0, 1, 2].map((j) => place[j] - c.xyz[p + j]);
+      const t = Math.min(Math.max((d[0] * w[0] + d[1] * w[1] + d[2] * w[2]) / (d[0] ** 2 + d[1] ** 2 + d[2] ** 2 || 1), 0), 1);
+      const far = Math.hypot(w[0] - t * d[0], w[1] - t * d[1], w[2] - t * d[2]);
+      if (far < least) [least, best] = [far, i + t];
+    }
+    return best;
+  };
+  return rows.map((row) => ({row, at: where(row)})).sort((p, q) => p.at - q.at).map(({row}) => row);
+}
+
+/** @param {string} words @param {() => void} run */
+function link(words, run) {
+  const button = document.createElement("button");
+  button.type = "button";
+  button.className = "link";
+  button.textContent = words;
+  button.onclick = run;
+  return button;
+}
+
+/** The points of the chosen curve, as a table; it is made anew when another curve or state is shown. */
+export class PointTable {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    this.page = page;
+    this.box = box;
+    this.shown = "";
+  }
+
+  render() {
+    const {store} = this.page, id = store.selection.curve, key = `${id}/${store.state}/${store.selection.row}`;
+    const open = this.box.closest("details")?.open;
+    if (!open || key === this.shown) return;
+    this.shown = key;
+    if (id === null || !store.net) {
+      const words = document.createElement("p");
+      words.textContent = "Click a line: its points are listed here.";
+      return this.box.replaceChildren(words);
+    }
+    const table = document.createElement("table"), caption = table.createCaption(), head = table.createTHead().insertRow();
+    caption.textContent = `Points of ${store.net.curveName(id)}, m`;
+    for (const title of ["point", "x", "y", "z"]) {
+      const cell = document.createElement("th");
+      cell.scope = "col";
+      cell.textContent = title;
+      head.append(cell);
+    }
+    const body = table.createTBody();
+    for (const row of alongCurve(store, id)) this.#row(body.insertRow(), row, id);
+    this.box.replaceChildren(table);
+  }
+
+  /** @param {HTMLTableRowElement} line @param {number} row @param {number} id */
+  #row(line, row, id) {
+    const {store} = this.page, point = store.net?.points.get(row), place = store.places.get(row);
+    if (!point || !place || !store.net) return;
+    const other = point.a === id ? point.b : point.a, name = link(other >= 0 ? store.net.curveName(other) : point.name, () => this.page.choose(row, id));
+    name.title = `${point.name}: ${store.net.roleWords(point)}`;
+    if (row === store.selection.row) line.setAttribute("aria-current", "true");
+    line.insertCell().append(name);
+    for (let i = 0; i < 3; i++) {
+      const cell = line.insertCell();
+      cell.textContent = place[i].toFixed(3);
+      if (point.free.includes("xyz"[i])) cell.className = "free";
+    }
+  }
+}
+
+/** What the library finds wrong; asked for, as it takes a moment on a large net. */
+export class Problems {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    this.page = page;
+    this.list = document.createElement("div");
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = "Check the hull";
+    button.onclick = () => this.ask();
+    box.append(button, this.list);
+    this.asked = 0;
+    this.state = -1;
+    /** @type {Finding[] | null} */
+    this.found = null;
+  }
+
+  ask() { this.asked = this.page.request({t: "check"}); }
+
+  /** @param {{id: number, value: Finding[] | null}} message */
+  answer(message) {
+    if (message.id !== this.asked || !message.value) return;
+    this.found = message.value;
+    this.state = this.page.store.state;
+    this.page.say(this.#words());
+    this.render();
+  }
+
+  #words() {
+    const n = this.found?.length ?? 0;
+    return n ? `${n} ${n === 1 ? "problem" : "problems"}` : "Nothing is wrong.";
+  }
+
+  render() {
+    if (!this.found) return;
+    const old = this.state !== this.page.store.state, words = document.createElement("p");
+    words.textContent = `${this.#words()}${old ? " That was before the last edit." : ""}`;
+    this.list.replaceChildren(words, ...this.found.slice(0, 100).map((finding) => link(finding.text, () => this.page.find(finding.object))));
+  }
+}

@@ -1,0 +1,99 @@
+// What the server tells of a net: lines, curves, points, and who lies on whom; never shapes.
+
+/** @typedef {{id: number, name: string, family: string, axis: number | null, offset: number | null, boundary: number, curves: number[], names: string[]}} Line */
+/** @typedef {{row: number, name: string, label: string, a: number, b: number, sort: number, role: number, driver: number, kind: number[], free: string, held: number}} Point */
+/** @typedef {{name: string, length: number, breadth: number, depth: number, draught: number}} Particulars */
+
+export const CROSSING = 0, PLACED = 1, ADOPTED = 2;
+export const SHARED = 0, WATCHED = 3;
+const SORTS = ["crossing", "placed point", "adopted point"];
+const KINDS = ["smooth", "tangent", "knuckle"];
+
+export class Net {
+  /** @param {any} message */
+  constructor(message) {
+    /** @type {Particulars} */
+    this.particulars = message.particulars;
+    /** @type {Line[]} */
+    this.lines = message.lines;
+    /** @type {Map<number, {line: Line, name: string}>} */
+    this.curves = new Map();
+    for (const line of this.lines) line.curves.forEach((id, i) => this.curves.set(id, {line, name: line.names[i]}));
+    /** @type {Map<number, Point>} */
+    this.points = new Map();
+    const table = message.points;
+    table.row.forEach((/** @type {number} */ row, /** @type {number} */ i) => this.points.set(row, {
+      row, name: table.name[i], label: table.label[i], a: table.a[i], b: table.b[i], sort: table.sort[i],
+      role: table.role[i], driver: table.driver[i], kind: table.kind[i], free: table.free[i], held: table.held[i],
+    }));
+    /** @type {Map<number, number[]>} */
+    this.rowsOf = new Map();
+    for (const point of this.points.values()) {
+      for (const id of [point.a, point.b]) {
+        if (id < 0) continue;
+        const rows = this.rowsOf.get(id);
+        if (rows) rows.push(point.row);
+        else this.rowsOf.set(id, [point.row]);
+      }
+    }
+    /** @type {[string, number][]} */
+    this.byName = [...this.points.values()].map((point) => [point.name, point.row]);
+    this.byName.sort((p, q) => q[0].length - p[0].length);
+  }
+
+  /** @param {number} curve */
+  lineOf(curve) { return this.curves.get(curve)?.line; }
+
+  /** @param {number} curve */
+  curveName(curve) { return this.curves.get(curve)?.name ?? ""; }
+
+  /** The point of a name, or of the two lines given in the other order. @param {string} name */
+  find(name) {
+    const wanted = name.trim().toLowerCase();
+    for (const point of this.points.values()) if (point.name.toLowerCase() === wanted || (point.label && point.label.toLowerCase() === wanted)) return point.row;
+    const [one, other, ...more] = wanted.split(" x ");
+    if (!other || more.length) return null;
+    const turned = `${other} x ${one}`;
+    for (const point of this.points.values()) if (point.name.toLowerCase() === turned) return point.row;
+    return null;
+  }
+
+  /** Points that a sentence of the library names. @param {string} text */
+  named(text) {
+    const found = [];
+    let left = text;
+    for (const [name, row] of this.byName) {
+      if (!left.includes(name)) continue;
+      found.push(row);
+      left = left.split(name).join("\u0000");
+      if (found.length === 12) break;
+    }
+    return found;
+  }
+
+  /** @param {Point} point */
+  sortWords(point) { return SORTS[point.sort] ?? ""; }
+
+  /** What a point is to its curves, and who computes it. @param {Point} point */
+  roleWords(point) {
+    if (point.sort !== CROSSING) return `defines ${this.curveName(point.a)}`;
+    if (point.role === SHARED) return "shared: both lines are made through it";
+    if (point.role === WATCHED) return "watched: it has no value of its own";
+    return `driven by ${this.curveName(point.driver)}`;
+  }
+
+  /** What the hand can do with it. @param {Point} point */
+  wayWords(point) {
+    if (point.free && point.held === 1) return `on a flat: it moves along ${[...point.free].join(", ")}, and is not pulled`;
+    if (point.free && point.held === 2) return `on the profile: it moves along ${[...point.free].join(", ")}, and is not pulled`;
+    if (point.free) return `move along ${[...point.free].join(", ")}, or pull the hull`;
+    return "computed: pull the hull here";
+  }
+
+  /** @param {Point} point */
+  kindWords(point) {
+    const on = [point.a, point.b].map((id, side) => id < 0 ? "" : `${KINDS[point.kind[side]]} on ${this.curveName(id)}`).filter(Boolean);
+    const plain = on.every((words) => words.startsWith("smooth"));
+    return plain ? "smooth" : on.join(", ");
+  }
+}

@@ -1,0 +1,404 @@
+// The page: its parts, what the server says, and what the actions do. Everything hangs on one root.
+
+import {ACTIONS, keyWords} from "./actions.js";
+import {Hand} from "./hand.js";
+import {Keys} from "./keys.js";
+import {LIVE, NET, VERSION, parseFrame} from "./wire.js";
+import {Net} from "./net.js";
+import {Panel} from "./panel.js";
+import {Pointers} from "./gesture.js";
+import {Speaker} from "./speak.js";
+import {Store} from "./store.js";
+import {View} from "./view.js";
+import {paintHull, paintOverlay} from "./paint.js";
+import {readInk, themeOf} from "./theme.js";
+import {placeBubble} from "./bubble.js";
+import {makeBar} from "./bar.js";
+import {alongCurve} from "./lists.js";
+
+/** @typedef {import("./view.js").Kind} Kind */
+/** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */
+/** @typedef {{send: (message: object) => void}} Link */
+/** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null}} Options */
+
+const KINDS = /** @type {Kind[]} */ (["body", "profile", "half", "wire"]);
+
+/** @param {HTMLElement} root @param {Options} options */
+export function mount(root, options) {
+  return new Page(root, options);
+}
+
+export class Page {
+  /** @param {HTMLElement} root @param {Options} options */
+  constructor(root, options) {
+    this.root = root;
+    this.options = options;
+    this.store = new Store();
+    this.store.author = options.author;
+    root.dataset.tab = this.store.tab;
+    this.speaker = new Speaker(root);
+    this.bar = makeBar(this);
+    const views = document.createElement("main"), aside = document.createElement("aside"), foot = document.createElement("footer");
+    views.className = "views";
+    aside.setAttribute("aria-label", "Point, curve, edit");
+    this.banner = document.createElement("div");
+    this.banner.className = "banner";
+    this.banner.setAttribute("role", "status");
+    this.status = document.createElement("span");
+    this.figures = document.createElement("span");
+    foot.append(this.status, this.figures);
+    root.append(this.bar.element, this.banner, views, aside, foot);
+    const length = {o: 0, s: 1};
+    this.views = Object.fromEntries(KINDS.map((kind) => [kind, new View(kind, this.store, kind === "profile" || kind === "half" ? length : {o: 0, s: 1}, views)]));
+    this.views.profile.partner = this.views.half;
+    this.views.half.partner = this.views.profile;
+    this.hand = new Hand(this.store, (message) => this.link.send(message));
+    this.pointers = Object.fromEntries(KINDS.map((kind) => [kind, new Pointers(this.views[kind], this.hand)]));
+    this.hand.scale = () => Math.max(...["body", "profile", "half"].map((kind) => this.views[kind].shown ? Math.max(this.views[kind].axis.s, this.views[kind].sy) : 0));
+    this.hand.onGrip = () => Object.values(this.pointers).forEach((each) => each.track());
+    for (const kind of KINDS) this.views[kind].upper.addEventListener("focus", () => this.#look(kind));
+    this.active = /** @type {Kind} */ ("body");
+    this.panel = new Panel(this, aside);
+    this.keys = new Keys(this);
+    this.panelStale = true;
+    this.pending = 0;
+    this.number = 0;
+    /** @type {any} */
+    this.message = null;
+    this.ink = readInk(root);
+    /** Counts and times for who measures. */
+    this.stats = {frames: 0, steps: /** @type {number[]} */ ([]), drawn: /** @type {number[]} */ ([]), bytes: 0};
+    this.store.listeners.add((what) => this.#stale(what));
+    this.#restore();
+    this.dress();
+    new ResizeObserver(() => this.#stale("hull")).observe(views);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.dress());
+    addEventListener("blur", () => this.letGo());
+    this.link = options.connect({
+      open: () => this.link.send({t: "hello", version: VERSION, token: options.token, author: this.store.author}),
+      text: (text) => this.#told(JSON.parse(text)),
+      bytes: (bytes) => this.#drawn(bytes),
+      lost: () => this.#lost("lost", "The server has gone. What was committed is kept; trying again."),
+      over: (reason) => this.#lost("over", reason),
+    });
+    Object.assign(root, {fairing: this});
+    this.#stale("panel");
+  }
+
+  // ---- what the server says
+
+  /** @param {any} message */
+  #told(message) {
+    const {store, hand} = this;
+    if (message.t === "session") {
+      store.connection = "open";
+      store.file = message.file;
+      store.changed("panel");
+    } else if (message.t === "net") this.message = message;
+    else if (message.t === "state") {
+      store.history = message;
+      store.changed("panel");
+    } else if (message.t === "grip") hand.grip(message);
+    else if (message.t === "refused") {
+      if (!hand.refused(message) && message.id) this.#refusedHere(message);
+    } else if (message.t === "done") {
+      hand.done(message);
+      store.last = message;
+      this.say(`${message.name}: ${message.relofted} curves followed.`);
+      store.changed("panel");
+    } else if (message.t === "answer") this.panel.problems.answer(message);
+    else if (message.t === "problem") {
+      hand.problem(message);
+      store.problem = message.text;
+      store.changed("panel", "overlay");
+    }
+  }
+
+  /** An edit that was typed is refused: said at the point. @param {any} message */
+  #refusedHere(message) {
+    const {store} = this, row = store.selection.row, text = message.reasons.join("\n");
+    store.refusal = {text, row, place: row === null ? null : [...(store.places.get(row) ?? [])], named: store.net?.named(text) ?? []};
+    store.changed("overlay", "panel");
+  }
+
+  /** @param {ArrayBuffer} bytes */
+  #drawn(bytes) {
+    const frame = parseFrame(bytes), {store, hand} = this;
+    this.stats.bytes = frame.bytes;
+    if (frame.kind === NET) {
+      const first = store.net === null, net = new Net(this.message);
+      hand.drop();
+      store.adopt(net, frame);
+      this.root.ownerDocument.title = `${net.particulars.name} – fairing page`;
+      this.bar.name(net.particulars, net.lines.length, net.points.size);
+      if (first) this.fit();
+    } else if (frame.kind === LIVE) {
+      const asked = hand.asked.get(frame.seq);
+      if (asked !== undefined) this.stats.steps.push(performance.now() - asked.time);
+      if (hand.live(frame)) this.speaker.listen(store);
+      hand.asked.delete(frame.seq);
+    } else store.publish(frame);
+  }
+
+  /** @param {"lost" | "over"} how @param {string} reason */
+  #lost(how, reason) {
+    this.letGo();
+    this.hand.drop();
+    this.store.connection = how;
+    this.store.reason = reason;
+    this.store.changed("overlay", "panel");
+  }
+
+  // ---- drawing: one frame at most is waited for, and none when nothing has changed
+
+  /** @param {import("./store.js").Stale} what */
+  #stale(what) {
+    if (what === "panel") this.panelStale = true;
+    else for (const view of Object.values(this.views)) {
+      view.stale.overlay = true;
+      if (what === "hull") view.touch();
+    }
+    if (!this.pending) this.pending = requestAnimationFrame(() => this.#frame());
+  }
+
+  #frame() {
+    this.pending = 0;
+    const begin = performance.now(), {store} = this;
+    // One that is measured anew is fitted anew, if nobody has looked elsewhere.
+    const other = Object.values(this.views).filter((view) => view.measure());
+    for (const view of other) if (view.fitted) view.fit();
+    for (const view of Object.values(this.views)) {
+      if (!view.shown) continue;
+      if (view.stale.hull) paintHull(view, this.ink);
+      if (view.stale.overlay) paintOverlay(view, this.ink);
+    }
+    placeBubble(this);
+    if (this.panelStale) {
+      this.panelStale = false;
+      this.panel.render();
+      this.bar.render();
+      this.#foot();
+      this.speaker.listen(store);
+    }
+    this.stats.frames++;
+    this.stats.drawn.push(performance.now() - begin);
+    for (const kept of [this.stats.drawn, this.stats.steps]) if (kept.length > 2000) kept.shift();
+    const {dataset} = this.root;
+    dataset.state = String(store.state);
+    dataset.connection = store.connection;
+    dataset.seq = String(store.overlay?.frame.seq ?? 0);
+    if (store.net) dataset.ready = "yes";
+  }
+
+  #foot() {
+    const {store} = this, {held, overlay} = store;
+    const gone = store.connection === "lost" || store.connection === "over";
+    this.root.classList.toggle("gone", gone);
+    this.banner.hidden = !gone && !store.problem;
+    this.banner.textContent = gone ? store.reason : store.problem ?? "";
+    const hints = held?.how === "pull" ? "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
+      : held ? "Move: Alt is ten times finer, Shift locks an axis, Esc cancels"
+      : store.selection.row !== null ? "Drag, or use the arrows: 1 mm, Shift 10 mm, Alt 0.1 mm" : "Click a point or a line; drag the ground to pan, the wheel zooms";
+    this.status.textContent = store.connection === "connecting" ? "Connecting" : hints;
+    const view = this.activeView(), pixel = 1e3 / view.axis.s * (this.store.tools.fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
+    const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
+    this.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
+  }
+
+  // ---- what the actions do
+
+  /** @param {string} words */
+  say(words) {
+    this.speaker.say(words);
+    this.status.textContent = words;
+  }
+
+  activeView() { return this.views[this.store.maximised ?? this.active]; }
+
+  /** @param {Kind} kind */
+  #look(kind) {
+    this.active = kind;
+  }
+
+  /** @param {"pull" | "move"} how */
+  use(how) {
+    this.store.tools.how = how;
+    this.store.changed("panel");
+    this.keep();
+  }
+
+  toggleFine() {
+    this.store.tools.fine = !this.store.tools.fine;
+    this.store.changed("panel");
+    this.keep();
+  }
+
+  /** Asks for something; gives the number that the answer will have. @param {object} message */
+  request(message) {
+    this.link.send({...message, id: ++this.number});
+    return this.number;
+  }
+
+  undo() { this.request({t: "undo"}); }
+
+  redo() { this.request({t: "redo"}); }
+
+  /** @param {string} name @param {object[]} ops */
+  apply(name, ops) {
+    this.store.refusal = this.store.problem = null;
+    this.request({t: "apply", name: name.slice(0, 190), ops});
+  }
+
+  /** @param {string} name */
+  sign(name) {
+    if (!name.trim()) return this.say("Type a name.");
+    this.store.author = name.trim();
+    this.options.keep("author", this.store.author);
+    this.link.send({t: "sign", author: this.store.author});
+  }
+
+  cancel() {
+    for (const each of Object.values(this.pointers)) each.cancel();
+    if (this.store.held) this.hand.cancel();
+  }
+
+  /** The window loses the focus, or the connection breaks: what is in hand is let go. */
+  letGo() {
+    this.keys.finish();
+    for (const each of Object.values(this.pointers)) each.cancel();
+  }
+
+  fit() {
+    for (const view of [this.views.body, this.views.wire, this.views.profile]) view.shown ? view.fit() : view.partner?.fit();
+    this.store.changed("hull", "overlay");
+  }
+
+  /** @param {number} squeeze */
+  compress(squeeze) {
+    this.store.squeeze = squeeze;
+    for (const view of [this.views.profile, this.views.half]) view.fit();
+    this.store.changed("hull", "overlay", "panel");
+    this.keep();
+  }
+
+  /** @param {number} factor */
+  zoom(factor) {
+    const view = this.activeView();
+    view.zoom(view.width / 2, view.height / 2, factor);
+    this.store.changed("overlay");
+  }
+
+  /** @param {number} dx @param {number} dy */
+  pan(dx, dy) {
+    this.activeView().pan(dx, dy);
+    this.store.changed("overlay");
+  }
+
+  /** @param {Kind} kind */
+  maximise(kind) {
+    const at = this.root.ownerDocument.activeElement, drawing = at instanceof HTMLCanvasElement;
+    const back = this.store.maximised === kind;
+    this.store.maximised = back ? null : kind;
+    this.store.tab = kind;
+    this.root.dataset.maximised = this.store.maximised ?? "";
+    this.root.dataset.tab = kind;
+    for (const view of Object.values(this.views)) view.fitted = true;
+    this.store.changed("hull", "overlay", "panel");
+    if (!back) this.active = kind;
+    // A drawing that is hidden cannot keep the focus, and the keys act where it is.
+    if (drawing) this.activeView().upper.focus({preventScroll: true});
+  }
+
+  /** Brings what is chosen to the middle, where it is not seen, or nearer. @param {number} nearer */
+  fly(nearer) {
+    const {selection, net} = this.store, view = this.activeView();
+    const row = selection.row ?? (selection.curve === null ? undefined : net?.rowsOf.get(selection.curve)?.[0]), place = row === undefined ? undefined : this.store.placeOf(row);
+    if (!place || view.kind === "wire") return;
+    if (nearer > 1) view.zoom(...view.atPlace(place), nearer);
+    const [x, y] = view.atPlace(place);
+    if (nearer > 1 || x < 40 || y < 40 || x > view.width - 40 || y > view.height - 40) view.pan(view.width / 2 - x, view.height / 2 - y);
+    this.store.changed("overlay");
+  }
+
+  /** @param {number} by */
+  step(by) {
+    const {selection, curves} = this.store, id = selection.curve;
+    if (id === null || !curves.has(id)) return this.say("Choose a line first.");
+    const order = alongCurve(this.store, id), at = selection.row === null ? (by > 0 ? -1 : 0) : order.indexOf(selection.row);
+    this.choose(order[(at + by + order.length) % order.length], id);
+  }
+
+  /** @param {number} by */
+  stepCurve(by) {
+    const view = this.activeView(), lines = (this.store.net?.lines ?? []).filter((line) => line.family !== "boundary" && view.shows(line));
+    lines.sort((p, q) => (p.offset ?? 0) - (q.offset ?? 0));
+    const ids = lines.flatMap((line) => line.curves), at = this.store.selection.curve === null ? (by > 0 ? -1 : 0) : ids.indexOf(this.store.selection.curve);
+    if (ids.length) this.choose(null, ids[(at + by + ids.length) % ids.length]);
+  }
+
+  /** @param {number | null} row @param {number | null} curve */
+  choose(row, curve) {
+    this.store.select(row, curve);
+    this.fly(1);
+    const {net} = this.store, point = row === null ? undefined : net?.points.get(row);
+    this.say(point && net ? `${point.name}, ${net.roleWords(point)}` : curve === null ? "" : net?.curveName(curve) ?? "");
+  }
+
+  search() { this.bar.search.focus(); }
+
+  /** @param {string} name */
+  find(name) {
+    const {net} = this.store;
+    if (!net) return;
+    const row = net.find(name), wanted = name.trim().toLowerCase(), curve = [...net.curves].find(([, each]) => each.name.toLowerCase() === wanted)?.[0];
+    if (row === null && curve === undefined) return this.say(`There is no point and no line "${name}": type a name such as ${net.byName[0]?.[0] ?? "WL 1"}.`);
+    const point = row === null ? undefined : net.points.get(row), view = this.activeView();
+    const on = point ? [point.a, point.b].find((id) => { const line = net.lineOf(id); return line && view.shows(line) && line.family !== "boundary"; }) ?? point.a : curve ?? null;
+    this.choose(row, on);
+    view.upper.focus({preventScroll: true});
+  }
+
+  /** @param {HTMLInputElement} field */
+  leaveField(field) {
+    field.blur();
+    this.panel.shownState = -1;
+    this.store.changed("panel");
+    this.activeView().upper.focus({preventScroll: true});
+  }
+
+  nextTheme() {
+    const all = ["auto", "light", "dark"];
+    this.store.theme = all[(all.indexOf(this.store.theme) + 1) % all.length];
+    this.dress();
+    this.keep();
+  }
+
+  dress() {
+    this.root.dataset.theme = themeOf(this.store.theme);
+    this.ink = readInk(this.root);
+    this.store.changed("hull", "overlay", "panel");
+  }
+
+  sheet() {
+    this.bar.sheet(ACTIONS.map(({words, keys}) => [words, keys.map(keyWords).join(" or ")]));
+  }
+
+  keep() {
+    const {show, tools, gain, squeeze, theme} = this.store;
+    this.options.keep("looks", JSON.stringify({show, how: tools.how, fine: tools.fine, gain, squeeze, theme}));
+  }
+
+  #restore() {
+    try {
+      const {show, how, fine, gain, squeeze, theme} = JSON.parse(this.options.kept("looks") ?? "{}");
+      for (const name of /** @type {(keyof Store["show"])[]} */ (Object.keys(this.store.show))) if (typeof show?.[name] === "boolean") this.store.show[name] = show[name];
+      if (how === "pull" || how === "move") this.store.tools.how = how;
+      this.store.tools.fine = fine === true;
+      if (gain > 0 && gain < 100) this.store.gain = gain;
+      if ([1, 2, 5, 10].includes(squeeze)) this.store.squeeze = squeeze;
+      if (["auto", "light", "dark"].includes(theme)) this.store.theme = theme;
+    } catch {
+      this.options.keep("looks", "{}"); // what was kept is none of ours
+    }
+  }
+}

@@ -1,0 +1,222 @@
+// The panel at the right: the point, its curve, what the edit does, who signs.
+
+import {inflections} from "./comb.js";
+import {arcLength} from "./hermite.js";
+import {farthest} from "./paint.js";
+import {PointTable, Problems} from "./lists.js";
+
+/** @typedef {import("./page.js").Page} Page */
+
+const AXES = ["x", "y", "z"];
+const WAYS = ["forward of AP", "from the centre plane", "above the base line"];
+const PLANES = /** @type {Record<string, [number, number]>} */ ({sections: [1, 2], frames: [1, 2], waterlines: [0, 1], diagonals: [0, 1]});
+
+/** @param {number} metres */
+export const millimetres = (metres) => `${metres < 0 ? "−" : ""}${(1e3 * Math.abs(metres)).toFixed(1)} mm`;
+/** @param {number} value @param {number} digits @param {string} unit */
+export const signed = (value, digits, unit) => `${value < 0 ? "−" : "+"}${Math.abs(value).toFixed(digits)} ${unit}`;
+
+export class Panel {
+  /** @param {Page} page @param {HTMLElement} element */
+  constructor(page, element) {
+    this.page = page;
+    this.parts = Object.fromEntries(["Point", "Curve", "Edit", "Pull", "Points", "Problems", "Signed as"].map((title) => {
+      const box = document.createElement("details"), head = document.createElement("summary"), heading = document.createElement("h2"), body = document.createElement("div");
+      box.open = title !== "Points" && title !== "Problems";
+      box.ontoggle = () => page.store.changed("panel");
+      heading.textContent = title;
+      head.append(heading);
+      box.append(head, body);
+      element.append(box);
+      return [title, body];
+    }));
+    /** @type {HTMLInputElement[]} */
+    this.fields = [];
+    this.shownRow = /** @type {number | null | undefined} */ (undefined);
+    this.shownState = -1;
+    this.#signature();
+    this.points = new PointTable(page, this.parts.Points);
+    this.problems = new Problems(page, this.parts.Problems);
+    this.radii = [0, 1].map((i) => this.#radius(i));
+    this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
+  }
+
+  /** @param {number} i */
+  #radius(i) {
+    const field = document.createElement("input"), {store} = this.page;
+    field.inputMode = "decimal";
+    field.setAttribute("aria-label", i ? "radius of a pull around the girth, m" : "radius of a pull along the length, m");
+    field.onchange = () => {
+      const value = Number(field.value.replace(",", ".").trim() || NaN), radius = [...(store.tools.radius ?? [1, 1])];
+      if (!(value > 0 && value < 1000)) this.page.say("A radius is a number of metres above 0, such as 12.5");
+      else radius[i] = value;
+      store.tools.radius = radius;
+      store.changed("panel");
+    };
+    return field;
+  }
+
+  render() {
+    const radius = this.page.store.tools.radius;
+    this.radii.forEach((field, i) => {
+      if (radius && field !== document.activeElement) field.value = radius[i].toFixed(1);
+    });
+    this.#point();
+    this.#curve();
+    this.#edit();
+    this.points.render();
+    this.problems.render();
+  }
+
+  /** Opens a part, and gives it the focus. @param {"Points" | "Problems"} title */
+  open(title) {
+    const box = this.parts[title].closest("details");
+    if (!box) return;
+    box.open = true;
+    box.querySelector("summary")?.focus();
+    this.render();
+  }
+
+  /** @param {HTMLElement} box @param {[string, string | Node][]} rows */
+  #table(box, rows) {
+    const list = document.createElement("dl");
+    for (const [name, value] of rows) {
+      const term = document.createElement("dt"), what = document.createElement("dd");
+      term.textContent = name;
+      what.append(value);
+      list.append(term, what);
+    }
+    box.replaceChildren(list);
+  }
+
+  /** @param {HTMLElement} box @param {string} words */
+  #words(box, words) {
+    const line = document.createElement("p");
+    line.textContent = words;
+    box.replaceChildren(line);
+  }
+
+  #point() {
+    const {store} = this.page, box = this.parts.Point, row = store.held?.row ?? store.selection.row;
+    const point = row === null ? undefined : store.net?.points.get(row), place = row === null ? undefined : store.placeOf(row);
+    if (!point || !place || !store.net) {
+      this.shownRow = null;
+      return this.#words(box, "Click a point, or press / and type its name.");
+    }
+    const same = this.shownRow === row && this.shownState === store.state && this.fields.length > 0 && box.contains(this.fields[0]);
+    if (same) {
+      this.fields.forEach((field, i) => {
+        if (field !== document.activeElement) field.value = place[i].toFixed(4);
+      });
+      const moved = box.querySelector(".moved");
+      if (moved) moved.textContent = this.#movedWords(row);
+      return;
+    }
+    const link = document.createElement("button");
+    link.type = "button";
+    link.className = "link";
+    link.textContent = store.net.roleWords(point);
+    link.onclick = () => store.select(null, point.driver);
+    const moved = document.createElement("span");
+    moved.className = "moved";
+    moved.textContent = this.#movedWords(row);
+    this.fields = AXES.map((name, i) => this.#field(point, name, i, place[i]));
+    this.#table(box, [
+      ["name", point.label || point.name],
+      ["sort", store.net.sortWords(point)],
+      ["role", point.driver >= 0 ? link : store.net.roleWords(point)],
+      ["passes", store.net.kindWords(point)],
+      ...AXES.map((name, i) => /** @type {[string, Node]} */ ([`${name}, m`, this.fields[i]])),
+      ["moved", moved],
+    ]);
+    this.shownRow = row;
+    this.shownState = store.state;
+  }
+
+  /** How far the chosen point is from where it is published. @param {number | null} row */
+  #movedWords(row) {
+    const {store} = this.page, now = row === null ? undefined : store.overlay?.frame.places.get(row), then = row === null ? undefined : store.places.get(row);
+    if (!now || !then) return "–";
+    return millimetres(Math.hypot(now[0] - then[0], now[1] - then[1], now[2] - then[2]));
+  }
+
+  /** @param {import("./net.js").Point} point @param {string} name @param {number} axis @param {number} value */
+  #field(point, name, axis, value) {
+    const field = document.createElement("input");
+    field.inputMode = "decimal";
+    field.value = value.toFixed(4);
+    field.setAttribute("aria-label", `${name}, m, ${WAYS[axis]}`);
+    field.title = WAYS[axis];
+    field.readOnly = !point.free.includes(name);
+    if (field.readOnly) {
+      field.tabIndex = -1;
+      field.title += point.free ? `; it lies in a plane: free is ${[...point.free].join(", ")}` : "; it is computed";
+    }
+    field.onkeydown = (event) => {
+      if (event.key === "Enter") this.#enter(point);
+    };
+    field.onblur = () => this.page.store.changed("panel");
+    return field;
+  }
+
+  /** @param {import("./net.js").Point} point */
+  #enter(point) {
+    const values = Object.fromEntries([...point.free].map((name) => [name, Number(this.fields[AXES.indexOf(name)].value.replace(",", ".").trim() || NaN)]));
+    const wrong = Object.entries(values).find(([, value]) => !Number.isFinite(value));
+    if (wrong) return this.page.say(`${wrong[0]} is no number of metres: type one such as 6.953`);
+    this.page.apply(`place ${point.name} at ${Object.entries(values).map(([name, value]) => `${name} ${value}`).join(", ")}`, [{op: "move", point: point.name, ...values}]);
+  }
+
+  #curve() {
+    const {store} = this.page, box = this.parts.Curve, id = store.selection.curve, net = store.net;
+    const line = id === null ? undefined : net?.lineOf(id), was = id === null ? undefined : store.curves.get(id), now = id === null ? undefined : store.curveNow(id);
+    if (id === null || !net || !line || !was || !now) return this.#words(box, "Click a line.");
+    const [a, b] = PLANES[line.family] ?? [0, 2], before = inflections(was, a, b).length, after = inflections(now, a, b).length;
+    const count = document.createElement("span");
+    count.textContent = before === after ? `${after}` : `${after}, was ${before}`;
+    count.className = after > before ? "hot" : "";
+    const by = now === was ? null : farthest(/** @type {any} */ ({curves: new Map([[id, now]])}), store.curves);
+    this.#table(box, [
+      ["name", net.curveName(id)],
+      ["family", line.family],
+      ...(line.offset === null ? [] : [/** @type {[string, string]} */ (["plane", `${AXES[line.axis ?? 0]} = ${line.offset.toFixed(3)} m`])]),
+      ["length", `${arcLength(now).toFixed(3)} m`],
+      ["points", `${now.n}`],
+      ["inflections", count],
+      ["moved", by === null ? "–" : `${millimetres(by)}, normal to it`],
+    ]);
+  }
+
+  #edit() {
+    const {store} = this.page, box = this.parts.Edit, {overlay, held, last} = store;
+    if (overlay && (held || this.page.hand.committing)) {
+      const {frame} = overlay;
+      return this.#table(box, [
+        ["asked", held?.amount == null ? "–" : millimetres(held.amount)],
+        ["follow", `${frame.curves.size} curves, ${frame.places.size} points`],
+        ["farthest", `${millimetres(frame.normal)} off the hull`],
+        ["volume", `about ${signed(frame.volume, 2, "m³")}`],
+        ["LCB", `about ${signed(frame.lcb, 4, "m")}`],
+        ["kernel", `${frame.ms.toFixed(1)} ms`],
+      ]);
+    }
+    if (!last) return this.#words(box, "Drag a point: all lines that follow move with it. Esc takes it back.");
+    this.#table(box, [
+      ["last", last.name],
+      ["follow", `${last.relofted} curves`],
+      ["farthest", last.normal === null ? "–" : `${millimetres(last.normal)} off the hull`],
+      ["inflections", last.inflections ? `${last.inflections} new` : "none new"],
+      ...last.notes.slice(0, 4).map((/** @type {string} */ note) => /** @type {[string, string]} */ (["note", note])),
+    ]);
+  }
+
+  #signature() {
+    const {page} = this, field = document.createElement("input"), words = document.createElement("p");
+    field.setAttribute("aria-label", "name that your edits are signed with");
+    field.value = page.options.author;
+    field.maxLength = 80;
+    field.onchange = () => page.sign(field.value);
+    words.textContent = "Undo takes back what this name has signed.";
+    this.parts["Signed as"].append(field, words);
+  }
+}

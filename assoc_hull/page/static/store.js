@@ -1,0 +1,101 @@
+// The one store: what is published, what is in hand, what is chosen, how it is looked at.
+
+/** @typedef {import("./wire.js").Curve} Curve */
+/** @typedef {import("./wire.js").Frame} Frame */
+/** @typedef {import("./net.js").Net} Net */
+/** @typedef {"hull" | "overlay" | "panel"} Stale */
+/** @typedef {{frame: Frame, amount: number | null, predicted: boolean}} Overlay */
+/** @typedef {{text: string, row: number | null, place: number[] | null, named: number[]}} Refusal */
+/**
+ * What the hand holds: `place` is where the pointer wants the point, `start` where it lay.
+ * @typedef {{row: number, how: "pull" | "move", place: number[], start: number[], free: string, normal: number[] | null, radius: number[] | null, way: number[] | null, amount: number | null, held: boolean, refused: boolean, waiting: boolean}} Held
+ */
+
+export class Store {
+  constructor() {
+    /** @type {Net | null} */
+    this.net = null;
+    /** @type {Map<number, Curve>} */
+    this.curves = new Map();
+    /** @type {Map<number, Float64Array>} */
+    this.places = new Map();
+    this.state = 0;
+    /** @type {Overlay | null} */
+    this.overlay = null;
+    /** @type {Held | null} */
+    this.held = null;
+    /** @type {Refusal | null} */
+    this.refusal = null;
+    this.selection = {curve: /** @type {number | null} */ (null), row: /** @type {number | null} */ (null)};
+    this.hover = {curve: /** @type {number | null} */ (null), row: /** @type {number | null} */ (null)};
+    this.tools = {how: /** @type {"pull" | "move"} */ ("pull"), radius: /** @type {number[] | null} */ (null), fine: false};
+    this.show = {combs: true, allCombs: false, movement: true, labels: true, points: false};
+    this.gain = 1;
+    this.squeeze = 1;
+    this.theme = "auto";
+    /** @type {string | null} */
+    this.maximised = null;
+    this.tab = "body";
+    this.connection = /** @type {"connecting" | "open" | "lost" | "over"} */ ("connecting");
+    this.reason = "";
+    this.history = {edits: 0, undo: /** @type {string | null} */ (null), redo: /** @type {string | null} */ (null), above: /** @type {string | null} */ (null)};
+    this.author = "";
+    this.file = /** @type {string | null} */ (null);
+    /** @type {any} */
+    this.last = null;
+    /** @type {string | null} */
+    this.problem = null;
+    /** @type {Set<(what: Stale) => void>} */
+    this.listeners = new Set();
+  }
+
+  /** @param {...Stale} what */
+  changed(...what) { for (const each of what) for (const listener of this.listeners) listener(each); }
+
+  /** Where a point is shown: in the hand, as it would follow, or as it is published. @param {number} row */
+  placeOf(row) { return this.overlay?.frame.places.get(row) ?? this.places.get(row); }
+
+  /** @param {number} id */
+  curveNow(id) { return this.overlay?.frame.curves.get(id) ?? this.curves.get(id); }
+
+  /** @param {number | null} row @param {number | null} curve */
+  select(row, curve) {
+    if (this.selection.row === row && this.selection.curve === curve) return;
+    this.selection = {row, curve};
+    this.changed("overlay", "panel");
+  }
+
+  /** @param {number | null} row @param {number | null} curve */
+  point(row, curve) {
+    if (this.hover.row === row && this.hover.curve === curve) return;
+    this.hover = {row, curve};
+    this.changed("overlay");
+  }
+
+  /** Takes over a whole net with its shapes. @param {Net} net @param {Frame} frame */
+  adopt(net, frame) {
+    const kept = {point: this.selection.row === null ? null : this.net?.points.get(this.selection.row)?.name ?? null,
+      curve: this.selection.curve === null ? null : this.net?.curveName(this.selection.curve) ?? null};
+    this.net = net;
+    this.curves = frame.curves;
+    this.places = frame.places;
+    this.state = frame.state;
+    this.overlay = null;
+    const row = kept.point === null ? null : net.find(kept.point);
+    const curve = [...net.curves].find(([, {name}]) => name === kept.curve)?.[0] ?? null;
+    this.selection = {row, curve};
+    this.hover = {row: null, curve: null};
+    // A pull that is to be fair is wide: an eighth of the length, and a third of the breadth.
+    this.tools.radius ??= [0.125 * net.particulars.length, 0.35 * net.particulars.breadth].map((value) => Math.round(10 * value) / 10);
+    this.changed("hull", "overlay", "panel");
+  }
+
+  /** Takes over what an edit has changed. @param {Frame} frame */
+  publish(frame) {
+    for (const [id, curve] of frame.curves) this.curves.set(id, curve);
+    for (const [row, place] of frame.places) this.places.set(row, place);
+    this.state = frame.state;
+    this.overlay = null;
+    this.changed("hull", "overlay", "panel");
+  }
+}

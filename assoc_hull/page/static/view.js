@@ -1,0 +1,277 @@
+// One view: its two canvases, what it shows of the hull, where things lie on the screen.
+
+import {bezier} from "./hermite.js";
+
+/** @typedef {import("./wire.js").Curve} Curve */
+/** @typedef {import("./net.js").Line} Line */
+/** @typedef {import("./store.js").Store} Store */
+/** @typedef {"body" | "profile" | "half" | "wire"} Kind */
+/** Lengths of the ship on the screen; profile and half-breadth plan share one. @typedef {{o: number, s: number}} Axis */
+/** @typedef {{x0: number, x1: number, y1: number, z0: number, z1: number}} Box */
+
+export const TITLES = {body: "Body plan", profile: "Profile", half: "Half-breadth plan", wire: "Wire"};
+const OWN = {body: ["sections", "frames"], profile: ["buttocks"], half: ["waterlines", "diagonals"], wire: []};
+const PLANE = {body: [1, 2], profile: [0, 2], half: [0, 1], wire: [0, 2]};
+const MARGINS = {body: [46, 40, 16, 30], profile: [46, 26, 16, 34], half: [46, 26, 16, 34], wire: [20, 30, 20, 20]};
+const FLAT = 1e-6;
+
+export class View {
+  /** @param {Kind} kind @param {Store} store @param {Axis} axis @param {HTMLElement} parent */
+  constructor(kind, store, axis, parent) {
+    this.kind = kind;
+    this.store = store;
+    this.axis = axis;
+    /** @type {View | null} */
+    this.partner = null;
+    this.a = PLANE[kind][0];
+    this.b = PLANE[kind][1];
+    this.oy = 0;
+    this.sy = 1;
+    this.yaw = -0.62;
+    this.pitch = 0.42;
+    this.width = this.height = 0;
+    this.fitted = true;
+    this.stale = {hull: true, overlay: true};
+    this.element = document.createElement("section");
+    this.element.className = `view view-${kind}`;
+    this.element.setAttribute("aria-label", TITLES[kind]);
+    const head = document.createElement("header"), title = document.createElement("h2");
+    title.textContent = TITLES[kind];
+    this.note = document.createElement("span");
+    this.note.className = "note";
+    head.append(title, this.note);
+    this.head = head;
+    this.lower = document.createElement("canvas");
+    this.upper = document.createElement("canvas");
+    this.upper.tabIndex = 0;
+    this.upper.setAttribute("role", "application");
+    this.upper.setAttribute("aria-label", `${TITLES[kind]}: drawing`);
+    this.tip = document.createElement("div");
+    this.tip.className = "tip";
+    this.tip.hidden = true;
+    this.element.append(this.lower, this.upper, head, this.tip);
+    parent.append(this.element);
+    /** @type {{id: number, path: Float32Array}[]} */
+    this.paths = [];
+    this.pathsStale = true;
+    /** @type {number[] | null} */
+    this.rowsShown = null;
+    this.magnified = 0;
+    /** @type {Map<string, number>} */
+    this.scales = new Map();
+  }
+
+  /** @param {HTMLCanvasElement} canvas */
+  context(canvas) {
+    const found = canvas.getContext("2d");
+    if (!found) throw new Error("this browser draws no Canvas 2D");
+    const d = devicePixelRatio || 1;
+    found.setTransform(d, 0, 0, d, 0, 0);
+    found.clearRect(0, 0, this.width, this.height);
+    return found;
+  }
+
+  /** Takes the size that the page gives it; tells whether that is another. */
+  measure() {
+    const {clientWidth: w, clientHeight: h} = this.element, d = devicePixelRatio || 1;
+    const same = w === this.width && h === this.height && this.lower.width === Math.round(w * d);
+    if (same) return false;
+    this.width = w;
+    this.height = h;
+    for (const canvas of [this.lower, this.upper]) {
+      canvas.width = Math.round(w * d);
+      canvas.height = Math.round(h * d);
+    }
+    this.touch();
+    return true;
+  }
+
+  touch() {
+    this.stale.hull = this.stale.overlay = this.pathsStale = true;
+  }
+
+  get shown() { return this.width > 0 && this.height > 0; }
+
+  get midship() { return (this.store.net?.particulars.length ?? 0) / 2; }
+
+  /** On which side of the middle a place is drawn; of the body plan only. @param {number} x */
+  side(x) { return this.kind === "body" && x < this.midship - FLAT ? -1 : 1; }
+
+  /** On which sides a curve is drawn; null: each segment on its own. @param {Line} line */
+  sides(line) {
+    if (this.kind === "wire") return [1, -1];
+    if (this.kind !== "body") return [1];
+    if (line.axis !== 0 || line.offset === null) return null;
+    if (Math.abs(line.offset - this.midship) <= FLAT) return [-1, 1];
+    return [this.side(line.offset)];
+  }
+
+  /** Horizontal and vertical place in metres, before the scale. @param {number} x @param {number} y @param {number} z @param {number} side @returns {[number, number]} */
+  flat(x, y, z, side) {
+    if (this.kind === "body") return [side * y, z];
+    if (this.kind === "half") return [x, y];
+    if (this.kind === "profile") return [x, z];
+    const along = x - this.midship, across = side * y, c = Math.cos(this.yaw), s = Math.sin(this.yaw);
+    const depth = across * c - along * s;
+    return [along * c + across * s, z * Math.cos(this.pitch) + depth * Math.sin(this.pitch)];
+  }
+
+  /** @param {number} x @param {number} y @param {number} z @param {number} side @returns {[number, number]} */
+  at(x, y, z, side) {
+    const [u, v] = this.flat(x, y, z, side);
+    return [this.axis.o + this.axis.s * u, this.oy - this.sy * v];
+  }
+
+  /** @param {ArrayLike<number>} place @returns {[number, number]} */
+  atPlace(place) { return this.at(place[0], place[1], place[2], this.side(place[0])); }
+
+  /** A direction in space as seen here, in pixels for a metre. @param {ArrayLike<number>} way @param {number} side @returns {[number, number]} */
+  seen(way, side) {
+    if (this.kind === "wire") {
+      const from = this.at(0, 0, 0, side), to = this.at(way[0], way[1], way[2], side);
+      return [to[0] - from[0], to[1] - from[1]];
+    }
+    const s = this.kind === "body" ? side : 1;
+    return [s * this.axis.s * way[this.a], -this.sy * way[this.b]];
+  }
+
+  /** Whether lines of this one are drawn in full here. @param {Line} line */
+  shows(line) {
+    if (this.kind === "wire") return true;
+    if (line.family !== "boundary") return OWN[this.kind].includes(line.family);
+    if (this.kind === "profile") return true;
+    return line.curves.some((id) => {
+      const c = this.store.curves.get(id);
+      if (!c) return false;
+      for (let i = 1; i < 3 * c.n; i += 3) if (Math.abs(c.xyz[i]) > 1e-3) return true;
+      return false;
+    });
+  }
+
+  /** @returns {Box} */
+  box() {
+    const found = {x0: Infinity, x1: -Infinity, y1: 0, z0: Infinity, z1: -Infinity};
+    for (const {n, xyz} of this.store.curves.values()) {
+      for (let i = 0; i < 3 * n; i += 3) {
+        found.x0 = Math.min(found.x0, xyz[i]);
+        found.x1 = Math.max(found.x1, xyz[i]);
+        found.y1 = Math.max(found.y1, xyz[i + 1]);
+        found.z0 = Math.min(found.z0, xyz[i + 2]);
+        found.z1 = Math.max(found.z1, xyz[i + 2]);
+      }
+    }
+    return found;
+  }
+
+  /** Least and greatest horizontal and vertical place of the whole hull. */
+  extent() {
+    const {x0, x1, y1, z0, z1} = this.box();
+    if (this.kind === "body") return [-y1, y1, z0, z1];
+    if (this.kind === "profile") return [x0, x1, z0, z1];
+    if (this.kind === "half") return [x0, x1, 0, y1];
+    const found = [Infinity, -Infinity, Infinity, -Infinity];
+    for (const x of [x0, x1]) for (const y of [-y1, y1]) for (const z of [z0, z1]) {
+      const [u, v] = this.flat(x, y, z, 1);
+      found[0] = Math.min(found[0], u);
+      found[1] = Math.max(found[1], u);
+      found[2] = Math.min(found[2], v);
+      found[3] = Math.max(found[3], v);
+    }
+    return found;
+  }
+
+  /** Largest scales at which the whole hull is seen. */
+  room() {
+    const [u0, u1, v0, v1] = this.extent(), [left, top, right, bottom] = MARGINS[this.kind];
+    return {across: Math.max(this.width - left - right, 20) / Math.max(u1 - u0, 1e-6),
+      up: Math.max(this.height - top - bottom, 12) / Math.max(v1 - v0, 1e-6)};
+  }
+
+  /** Shows all of the hull; views that share an axis agree on it. */
+  fit() {
+    if (!this.shown || !this.store.curves.size) return;
+    const both = (this.partner ? [this, this.partner] : [this]).filter((view) => view.shown);
+    const rooms = both.map((view) => view.room()), squeeze = this.kind === "wire" || this.kind === "body" ? 1 : this.store.squeeze;
+    this.axis.s = Math.min(...rooms.map((room) => Math.min(room.across, room.up)));
+    both.forEach((view, i) => {
+      view.sy = squeeze === 1 ? this.axis.s : Math.min(rooms[i].up, this.axis.s * squeeze);
+      const [, , v0, v1] = view.extent(), [, top, , bottom] = MARGINS[view.kind];
+      view.oy = (top + view.height - bottom) / 2 + view.sy * (v0 + v1) / 2;
+      view.fitted = true;
+      view.touch();
+    });
+    const [u0, u1] = this.extent(), [left, , right] = MARGINS[this.kind];
+    this.axis.o = (left + this.width - right) / 2 - this.axis.s * (u0 + u1) / 2;
+  }
+
+  /** @param {number} x @param {number} y @param {number} factor */
+  zoom(x, y, factor) {
+    const most = 20000 / this.axis.s, least = 0.02 / this.axis.s, f = Math.min(Math.max(factor, least), most);
+    this.axis.o = x - (x - this.axis.o) * f;
+    this.axis.s *= f;
+    this.oy = y - (y - this.oy) * f;
+    this.sy *= f;
+    if (this.partner) {
+      const middle = this.partner.height / 2;
+      this.partner.oy = middle - (middle - this.partner.oy) * f;
+      this.partner.sy *= f;
+    }
+    this.#left();
+  }
+
+  /** @param {number} dx @param {number} dy */
+  pan(dx, dy) {
+    this.axis.o += dx;
+    this.oy += dy;
+    this.#left();
+  }
+
+  /** @param {number} dx @param {number} dy */
+  turn(dx, dy) {
+    this.yaw += dx * 0.008;
+    this.pitch = Math.min(Math.max(this.pitch + dy * 0.008, -1.5), 1.5);
+    this.touch();
+  }
+
+  #left() {
+    this.fitted = false;
+    this.touch();
+    if (this.partner) {
+      this.partner.fitted = false;
+      this.partner.touch();
+    }
+  }
+
+  /** Adds a curve to the path. @param {CanvasRenderingContext2D} g @param {Curve} c @param {Line} line @param {(i: number) => boolean} [keep] */
+  trace(g, c, line, keep) {
+    const sides = this.sides(line), at = new Float64Array(12);
+    for (const given of sides ?? [0]) {
+      let last = -2, lastSide = 0;
+      for (let i = 0; i + 1 < c.n; i++) {
+        if (keep && !keep(i)) continue;
+        bezier(c, i, at);
+        const side = given || this.side((at[0] + at[9]) / 2);
+        if (last !== i - 1 || side !== lastSide) g.moveTo(...this.at(at[0], at[1], at[2], side));
+        const [x1, y1] = this.at(at[3], at[4], at[5], side), [x2, y2] = this.at(at[6], at[7], at[8], side);
+        const [x3, y3] = this.at(at[9], at[10], at[11], side);
+        g.bezierCurveTo(x1, y1, x2, y2, x3, y3);
+        last = i;
+        lastSide = side;
+      }
+    }
+  }
+
+  /** Points that can be taken hold of here. @returns {number[]} */
+  rows() {
+    const net = this.store.net;
+    if (!net || this.kind === "wire") return [];
+    if (!this.rowsShown) {
+      this.rowsShown = [];
+      for (const {row, a, b} of net.points.values()) {
+        const lines = [a, b].map((id) => net.lineOf(id));
+        if (lines.some((line) => line && this.shows(line))) this.rowsShown.push(row);
+      }
+    }
+    return this.rowsShown;
+  }
+}

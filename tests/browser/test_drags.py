@@ -1,0 +1,320 @@
+"""Drags in a real browser: what is drawn is what the kernel says, and what is left is one step."""
+
+import math
+
+import assoc_hull as ah
+from tests.browser.conftest import Hand, Open
+from tests.taken_back import taken_back
+
+POINT = "WL 0.625 x ST 16"
+
+
+def test_a_soft_pull_leaves_the_page_and_the_hull_alike(open_page: Open, hull: ah.Hull) -> None:
+    """200 moves of the hand, one step; every curve and point shown is the published one."""
+    hand = open_page(hull)
+    hand.near(POINT)
+    x, y = hand.press(POINT)
+    for step in range(200):
+        hand.page.mouse.move(x + 4.0 * math.sin(0.1 * step), y)
+    hand.to(x + 6.0, y)
+    live = hand.ask(
+        "p => [p.store.overlay.frame.curves.size, p.store.held.amount, p.store.overlay.predicted]"
+    )
+    assert live[0] > 20
+    assert not hull.history
+    hand.release()
+    (made,) = hull.history
+    assert made.name == f"pull {POINT} by {1e3 * live[1]:.1f} mm"
+    assert made.author == "anna"
+    assert hand.shows_what_is_published()
+
+
+def test_a_live_picture_is_that_of_the_kernel(open_page: Open, hull: ah.Hull) -> None:
+    """What is drawn while the hand rests is what a drag of the library gives for that amount."""
+    hand = open_page(hull)
+    hand.near(POINT)
+    x, y = hand.press(POINT)
+    hand.to(x + 7.0, y)
+    amount, curves = hand.ask(
+        "p => [p.store.held.amount, [...p.store.overlay.frame.curves].map(([id, c]) => [id,"
+        " [...c.xyz]])]"
+    )
+    radius = hand.ask("p => p.store.tools.radius")
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.settled()
+    with hull.drag(POINT, radius=tuple(radius)) as drag:
+        live = drag.to(d=amount)
+    shown = dict(curves)
+    assert sorted(shown) == live.curves.tolist()
+    for number, spline in zip(live.curves.tolist(), live.spline.single(), strict=True):
+        assert shown[number] == spline.xyz.ravel().tolist()
+
+
+def test_a_point_moves_alone_along_its_freedom(open_page: Open, hull: ah.Hull) -> None:
+    """With Ctrl, or with the tool; where the hand goes up and down, it stays on its water line."""
+    hand = open_page(hull)
+    hand.near(POINT)
+    start = hull.points[POINT].position
+    hand.page.keyboard.down("Control")
+    x, y = hand.press(POINT)
+    hand.page.keyboard.up("Control")
+    hand.to(x + 4.0, y + 9.0)
+    hand.release()
+    moved = hull.points[POINT].position - start
+    assert moved[0] == moved[2] == 0.0
+    assert abs(moved[1] - 0.010) < 1e-6
+    hand.page.keyboard.press("p")
+    hand.pull(POINT, -4.0)
+    assert abs(hull.points[POINT].position[1] - start[1]) < 1e-6
+    assert [step.name.split()[0] for step in hull.history] == ["move", "move"]
+    assert hand.shows_what_is_published()
+
+
+def test_escape_leaves_the_hull_as_it_was(open_page: Open, hull: ah.Hull) -> None:
+    """Whatever was drawn by then; the hand may go on, and let go."""
+    hand, before = open_page(hull), hull.fingerprint
+    hand.near(POINT)
+    x, y = hand.press(POINT)
+    hand.to(x + 5.0, y)
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.move(x + 20.0, y)
+    hand.page.mouse.up()
+    hand.settled()
+    assert hand.ask("p => p.store.overlay === null && p.store.held === null")
+    assert hull.fingerprint == before
+    assert hull.history == ()
+    hand.pull(POINT, 5.0)
+    assert len(hull.history) == 1
+
+
+def test_a_click_chooses_and_edits_nothing(open_page: Open, hull: ah.Hull) -> None:
+    """Also one with two pixels of a shaking hand; the panel names what was chosen."""
+    hand = open_page(hull)
+    x, y = hand.spot(POINT)
+    mouse = hand.page.mouse
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x + 2.0, y + 1.0)
+    mouse.up()
+    hand.settled()
+    assert hull.history == ()
+    panel = hand.page.locator("aside")
+    assert POINT in panel.inner_text()
+    assert "shared" in panel.inner_text()
+
+
+def test_a_refusal_stands_at_its_place(open_page: Open, hull: ah.Hull) -> None:
+    """Curves stay at the last accepted place, the sentence of the library stands by the point."""
+    hand, before = open_page(hull), hull.fingerprint
+    hand.near(POINT, scale=100.0)
+    x, y = hand.press(POINT)
+    hand.to(x + 1.0, y)
+    accepted = hand.ask("p => p.store.overlay.frame.seq")
+    hand.page.mouse.move(x + 90.0, y)
+    hand.page.wait_for_selector(".view-body .bubble")
+    hand.until("p => p.pending === 0 && p.hand.inFlight === 0 && !p.hand.wish")
+    amount = hand.ask("p => p.store.held.amount")
+    box = hand.page.locator(".bubble").bounding_box()
+    assert box is not None
+    place = hand.ask(
+        "p => { const v = p.views.body, b = v.upper.getBoundingClientRect(), [x, y] ="
+        " v.atPlace(p.store.held.place); return [b.left + x, b.top + y]; }"
+    )
+    assert not (
+        box["x"] <= place[0] <= box["x"] + box["width"]
+        and box["y"] <= place[1] <= box["y"] + box["height"]
+    )
+    assert abs(box["y"] - place[1]) < 200.0
+    with hull.drag(POINT, radius=tuple(hand.ask("p => p.store.tools.radius"))) as drag:
+        refused = drag.to(d=amount).refused
+    shown = hand.page.locator(".bubble").text_content() or ""
+    assert shown.split("\n")[:3] == list(refused[:3])
+    assert hand.page.locator("[aria-live=assertive]").text_content() == "\n".join(refused)
+    assert hand.ask("p => p.store.held.refused && p.store.overlay.frame.seq") >= accepted
+    hand.release()
+    assert hand.page.locator(".bubble").is_visible()
+    assert hull.fingerprint == before
+    hand.page.keyboard.press("Escape")
+    hand.settled()
+    assert hand.page.locator(".bubble").count() == 0
+
+
+def test_a_hover_says_what_a_point_is_before_it_is_pressed(open_page: Open, hull: ah.Hull) -> None:
+    """Driven, watched, on a flat: who computes it, and what can be done with it."""
+    hand = open_page(hull)
+    wanted = {
+        "driven by": "q => q.role === 1 || q.role === 2", "watched": "q => q.role === 3",
+        "on a flat": "q => q.held === 1 && q.free",
+    }  # fmt: skip
+    for words, fits in wanted.items():
+        name = hand.ask(
+            f"p => {{ const v = p.views.body, fits = {fits}, at = r =>"
+            f" v.atPlace(p.store.places.get(r));"
+            " const alone = row => v.rows().every(r => { const [a, b] = at(r), [c, d] = at(row);"
+            " return r === row || Math.hypot(a - c, b - d) > 2; });"
+            " for (const row of v.rows()) if (fits(p.store.net.points.get(row)) && alone(row))"
+            " return p.store.net.points.get(row).name; }"
+        )
+        hand.near(name, scale=3000.0)
+        hand.page.mouse.move(*hand.spot(name))
+        hand.page.wait_for_selector(".view-body .tip:not([hidden])")
+        tip = hand.page.locator(".view-body .tip").inner_text()
+        assert words in tip
+        assert "move" in tip or "pull" in tip
+        hand.ask("p => p.fit()")
+        hand.settled()
+
+
+def test_a_point_on_a_flat_refuses_a_pull_with_its_address(open_page: Open, hull: ah.Hull) -> None:
+    """The sentence names the point as the page does."""
+    hand, before = open_page(hull), hull.fingerprint
+    name = hand.ask(
+        "p => { for (const row of p.views.body.rows()) { const q = p.store.net.points.get(row);"
+        " if (q.held === 1 && q.free === 'y') return q.name; } for (const row of"
+        " p.views.body.rows()) {"
+        " const q = p.store.net.points.get(row); if (q.held === 1 && q.free) return q.name; } }"
+    )
+    hand.near(name, scale=3000.0)
+    x, y = hand.press(name)
+    hand.page.mouse.move(x + 12.0, y + 12.0)
+    hand.page.wait_for_selector(".bubble")
+    assert "on a flat" in hand.page.locator(".bubble").inner_text()
+    assert ":" not in hand.page.locator(".bubble").inner_text().partition(" is ")[0]
+    hand.release()
+    assert hull.fingerprint == before
+
+
+def fine(hand: Hand) -> float:
+    """How far 10 pixels go, mm."""
+    x, y = hand.press(POINT)
+    hand.to(x + 10.0, y)
+    amount: float = hand.ask("p => p.store.held.amount")
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.settled()
+    return 1e3 * amount
+
+
+def test_alt_is_ten_times_finer_and_so_is_the_tool(open_page: Open, hull: ah.Hull) -> None:
+    """With the tool on, Alt is as coarse as the hand."""
+    hand = open_page(hull)
+    hand.near(POINT)
+    whole = fine(hand)
+    hand.page.keyboard.down("Alt")
+    part = fine(hand)
+    hand.page.keyboard.up("Alt")
+    assert abs(part / whole - 0.1) < 0.01
+    hand.page.get_by_role("button", name="Fine").click()
+    assert abs(fine(hand) / whole - 0.1) < 0.01
+
+
+def test_shift_locks_an_axis(open_page: Open, hull: ah.Hull) -> None:
+    """Of a point with two freedoms: it goes where the hand goes most."""
+    hand = open_page(hull)
+    name = hand.ask(
+        "p => { for (const q of p.store.net.points.values()) if (q.free === 'yz' && q.sort === 2"
+        " && p.views.body.rows().includes(q.row)) return q.name; return null; }"
+    )
+    hand.near(name, scale=2000.0)
+    start = hull.points[name].position
+    hand.page.get_by_role("button", name="Move").first.click()
+    hand.page.keyboard.down("Shift")
+    x, y = hand.press(name)
+    hand.to(x + 3.0, y - 8.0)
+    place = hand.ask("p => p.store.held.place")
+    hand.page.keyboard.press("Escape")
+    hand.page.keyboard.up("Shift")
+    hand.page.mouse.up()
+    assert place[1] == start[1]
+    assert abs(place[2] - start[2]) > 1e-3
+
+
+def test_the_wheel_widens_the_pull_in_hand(open_page: Open, hull: ah.Hull) -> None:
+    """More curves follow, and the edit is made with what was seen."""
+    hand = open_page(hull)
+    hand.near(POINT)
+    x, y = hand.press(POINT)
+    hand.to(x + 4.0, y)
+    few = hand.ask("p => [p.store.overlay.frame.curves.size, p.store.tools.radius[0]]")
+    for _ in range(4):
+        hand.page.mouse.wheel(0, -120)
+    hand.until("(p, wide) => p.store.tools.radius[0] > 1.8 * wide", few[1])
+    hand.to(x + 5.0, y)
+    more = hand.ask("p => [p.store.overlay.frame.curves.size, p.store.tools.radius[0]]")
+    assert more[0] >= few[0]
+    hand.release()
+    assert len(hull.history) == 1
+    assert len(hull.history[0].relofted) >= few[0]
+
+
+def test_a_burst_of_arrows_is_one_step(open_page: Open, hull: ah.Hull) -> None:
+    """1 mm each, 10 with Shift, 0.1 with Alt; Enter ends it at once."""
+    hand = open_page(hull)
+    x, y = hand.spot(POINT)
+    hand.page.mouse.click(x, y)
+    hand.settled()
+    keys = hand.page.keyboard
+    for key in ("ArrowUp", "ArrowRight", "Shift+ArrowUp", "Alt+ArrowDown"):
+        keys.press(key)
+    hand.until("p => p.hand.inFlight === 0 && !p.hand.wish && p.store.overlay")
+    keys.press("Enter")
+    hand.settled()
+    (step,) = hull.history
+    assert step.name == f"pull {POINT} by 11.9 mm"
+    keys.press("ArrowDown")
+    hand.until("p => p.store.held === null && !p.hand.committing && p.store.history.edits === 2")
+    assert hull.history[-1].name == f"pull {POINT} by -1.0 mm"
+
+
+def test_undo_takes_back_and_redo_makes_again(open_page: Open, hull: ah.Hull) -> None:
+    """By button and by key; the page shows what is published each time."""
+    hand, before = open_page(hull), hull.fingerprint
+    hand.near(POINT)
+    hand.pull(POINT, 4.0)
+    hand.pull(POINT, 3.0)
+    after = hull.fingerprint
+    hand.page.get_by_role("button", name="Undo").click()
+    hand.until("p => p.store.history.edits === 1")
+    hand.page.keyboard.press("Control+z")
+    hand.until("p => p.store.history.edits === 0")
+    assert hull.fingerprint == before
+    assert hand.shows_what_is_published()
+    assert hand.page.get_by_role("button", name="Undo").is_disabled()
+    hand.page.keyboard.press("Control+y")
+    hand.until("p => p.store.history.edits === 1")
+    hand.page.keyboard.press("Control+Shift+Z")
+    hand.until("p => p.store.history.edits === 2")
+    assert hull.fingerprint == after
+    assert hand.shows_what_is_published()
+
+
+def test_what_is_typed_is_one_step_and_nonsense_is_none(open_page: Open, hull: ah.Hull) -> None:
+    """A field for each free coordinate; the others can be read only."""
+    hand = open_page(hull)
+    x, y = hand.spot(POINT)
+    hand.page.mouse.click(x, y)
+    field = hand.page.get_by_label("y, m, from the centre plane")
+    assert not hand.page.get_by_label("x, m, forward of AP").is_editable()
+    field.fill("6,893")
+    field.press("Enter")
+    hand.until("p => p.store.history.edits === 1")
+    assert hull.points[POINT].position[1] == 6.893
+    assert hand.shows_what_is_published()
+    field.fill("wide")
+    field.press("Enter")
+    assert "y is no number" in hand.page.locator("footer").inner_text()
+    field.fill("600")
+    field.press("Enter")
+    hand.page.wait_for_selector(".bubble")
+    assert len(hull.history) == 1
+
+
+def test_a_ship_with_a_bulb_is_pulled_as_well(open_page: Open, bulk_carrier: ah.Hull) -> None:
+    """Another hull, with stations of other names; it is taken back in the end."""
+    hand, name = open_page(bulk_carrier), "WL 11 x ST 19"
+    with taken_back(bulk_carrier):
+        hand.near(name)
+        hand.pull(name, 12.0)
+        assert len(bulk_carrier.history) == 1
+        assert hand.shows_what_is_published()

@@ -1,0 +1,382 @@
+"""What is seen: views, combs, sizes of the screen, names, and that nothing runs when idle."""
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.geometry.fairness.inflections import inflections
+from tests.browser.conftest import READY, Hand, Open
+
+POINT = "WL 0.625 x ST 16"
+VIEWS = ("body", "profile", "half", "wire")
+INK = (
+    "(p, kind, which) => { const c = p.views[kind][which], t = new OffscreenCanvas(c.width,"
+    " c.height);"
+    " const g = t.getContext('2d', {willReadFrequently: true}); g.drawImage(c, 0, 0);"
+    " const d = g.getImageData(0, 0, c.width, c.height).data; let n = 0;"
+    " for (let i = 3; i < d.length; i += 4) if (d[i] > 40) n++; return n; }"
+)
+"""How many pixels of a canvas are drawn."""
+
+
+def test_the_first_picture_has_all_of_the_hull_in_four_views(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """Drawn without a hand; the whole of the hull lies within each view."""
+    hand = open_page(hull)
+    assert hand.page.title() == "Series 60 CB 0.70 – fairing page"
+    assert "77 lines" in hand.page.locator(".dims").inner_text()
+    for kind in VIEWS:
+        assert hand.ask(INK, kind, "lower") > 3000
+        out = hand.ask(
+            "(p, kind) => { const v = p.views[kind]; let n = 0; for (const c of"
+            " p.store.curves.values())"
+            " for (let i = 0; i < 3 * c.n; i += 3) for (const s of kind === 'wire' ? [1, -1] :"
+            " [v.side(c.xyz[i])]) {"
+            " const [x, y] = v.at(c.xyz[i], c.xyz[i+1], c.xyz[i+2], s);"
+            " if (x < 0 || y < 0 || x > v.width || y > v.height) n++; } return n; }",
+            kind,
+        )
+        assert out == 0
+    assert hand.shows_what_is_published()
+
+
+def test_the_page_runs_under_its_own_policy(open_page: Open, hull: ah.Hull) -> None:
+    """Nothing inline, nothing from elsewhere is needed; the token leaves the address."""
+    hand = open_page(hull, strict=True)
+    assert hand.page.locator(READY).count() == 1
+    assert "#" not in hand.page.url
+    hand.page.reload()
+    hand.page.wait_for_selector(READY)
+
+
+def test_profile_and_half_breadth_plan_share_the_length(open_page: Open, hull: ah.Hull) -> None:
+    """Zoom and pan of one are those of the other."""
+    hand = open_page(hull)
+    x, y = hand.spot(POINT, "half")
+    hand.page.mouse.move(x, y)
+    hand.page.mouse.wheel(0, -300)
+    hand.settled()
+    other = hand.spot(POINT, "profile")
+    zoomed = hand.spot(POINT, "half")[0]
+    assert abs(zoomed - x) < 1.0  # the wheel comes at whole pixels
+    assert abs(other[0] - zoomed) < 0.01
+    box = hand.page.locator(".view-half").bounding_box()
+    assert box is not None
+    foot = box["y"] + box["height"] - 6.0
+    hand.page.mouse.move(400.0, foot)
+    hand.page.mouse.down()
+    hand.page.mouse.move(404.0, foot)  # from here on it is a drag
+    hand.page.mouse.move(454.0, foot)
+    hand.page.mouse.up()
+    hand.settled()
+    assert abs(hand.spot(POINT, "profile")[0] - zoomed - 50.0) < 0.01
+    hand.page.keyboard.press("0")
+    hand.settled()
+    assert hand.ask("p => p.views.half.fitted && p.views.profile.fitted")
+
+
+def test_a_comb_keeps_its_scale_while_it_is_dragged(open_page: Open, hull: ah.Hull) -> None:
+    """Only + and - change it; it is switched off by its key."""
+    hand = open_page(hull)
+    hand.near(POINT)
+    x, y = hand.press(POINT)
+    scales = "p => [...p.views.body.scales.values()]"
+    hand.to(x + 2.0, y)
+    before = hand.ask(scales)
+    hand.to(x + 8.0, y)
+    assert hand.ask(scales) == before
+    assert before
+    with_comb = hand.ask(INK, "body", "upper")
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.settled()
+    hand.page.keyboard.press("+")
+    assert hand.ask("p => p.store.gain") == 1.25
+    hand.page.keyboard.press("k")
+    hand.settled()
+    assert hand.ask(INK, "body", "upper") < with_comb
+
+
+@pytest.mark.parametrize("name", ["series60_70", "bulk_carrier"])
+def test_marks_of_inflection_are_those_of_the_library(
+    open_page: Open, name: str, request: pytest.FixtureRequest
+) -> None:
+    """On every plane curve of a hull, by the same rule."""
+    ship: ah.Hull = request.getfixturevalue(name)
+    hand, shapes, state = open_page(ship), ship.shapes(), ship.state
+    normals = np.full((shapes.spline.count, 3), np.nan)
+    axes = {"sections": (0, [1, 2]), "waterlines": (2, [0, 1]), "buttocks": (1, [0, 2])}
+    wanted = dict[int, list[int]]()
+    for at, curve in enumerate(shapes.curves.tolist()):
+        line = state.curves.line[curve]
+        family = state.groups.family[int(state.lines.group[line])]
+        if family in axes and state.lines.planar[line]:
+            axis, plane = axes[family]
+            normals[at] = np.eye(3)[axis]
+            wanted[curve] = plane
+    counts = dict(
+        zip(shapes.curves.tolist(), inflections(shapes.spline, normals)[0].tolist(), strict=True)
+    )
+    found = hand.ask(
+        "async (p, wanted) => { const {inflections} = await import('/comb.js');"
+        " return wanted.map(([id, a, b]) => inflections(p.store.curves.get(id), a, b).length); }",
+        [[curve, *plane] for curve, plane in wanted.items()],
+    )
+    assert found == [counts[curve] for curve in wanted]
+
+
+def test_lengths_are_compressed_and_a_view_stands_alone(open_page: Open, hull: ah.Hull) -> None:
+    """How much taller heights are is said; Esc brings all views back."""
+    hand = open_page(hull)
+    hand.page.locator(".view-body canvas").last.click(position={"x": 20, "y": 200})
+    hand.page.keyboard.press("3")
+    hand.settled()
+    assert hand.page.locator(".view-body").is_hidden()
+    hand.page.keyboard.press("c")
+    hand.page.keyboard.press("c")
+    hand.settled()
+    tall = hand.ask("p => p.views.half.sy / p.views.half.axis.s")
+    assert tall > 2.0
+    assert hand.page.locator(".view-half .note").inner_text() == f"heights × {tall:.1f}"
+    hand.page.keyboard.press("Escape")
+    hand.page.keyboard.press("Escape")
+    hand.settled()
+    assert hand.page.locator(".view-body").is_visible()
+    hand.page.keyboard.press("k")
+    assert not hand.ask("p => p.store.show.combs"), "keys act on, whatever was hidden"
+
+
+def test_nothing_is_drawn_while_nothing_happens(open_page: Open, hull: ah.Hull) -> None:
+    """Not one frame in two seconds, with a point chosen."""
+    hand = open_page(hull)
+    hand.page.mouse.click(*hand.spot(POINT))
+    hand.settled()
+    hand.page.mouse.move(5.0, 5.0)
+    hand.settled()
+    before = hand.ask("p => p.stats.frames")
+    hand.page.wait_for_timeout(2000)
+    assert hand.ask("p => p.stats.frames") == before
+
+
+def test_no_name_is_taken_for_markup(open_page: Open, hull: ah.Hull) -> None:
+    """Of ship, line, step, author: they are text, wherever they are shown."""
+    bad = "<img src=x onerror=alert(1)>"
+    twin = hull.snapshot()
+    with twin.edit(bad) as edit:
+        edit.rename("ST 16", bad)
+    hand = open_page(twin, author=bad)
+    name = POINT.replace("ST 16", bad)
+    hand.page.mouse.click(*hand.spot(name))
+    hand.settled()
+    hand.page.keyboard.press("ArrowUp")
+    hand.until("p => p.store.history.edits === 2")
+    hand.page.mouse.move(*hand.spot(name))
+    hand.page.wait_for_selector(".tip:not([hidden])")
+    assert bad in hand.page.locator("aside").inner_text()
+    assert bad in hand.page.locator(".view-body .tip").inner_text()
+    assert hand.page.locator("img").count() == 0
+
+
+@pytest.mark.parametrize(("width", "height"), [(320, 640), (390, 844), (720, 420), (1440, 840)])
+def test_the_page_fits_the_screen(open_page: Open, hull: ah.Hull, width: int, height: int) -> None:
+    """No scrolling sideways, also at 200 % zoom of a small screen; every view is reached."""
+    hand = open_page(hull, viewport={"width": width, "height": height})
+    assert hand.page.evaluate("document.documentElement.scrollWidth") <= width
+    for kind in VIEWS:
+        if width <= 900:
+            hand.page.locator(f".tabs [data-tab={kind}]").click()
+        hand.settled()
+        assert hand.page.locator(f".view-{kind}").is_visible()
+        assert hand.ask(INK, kind, "lower") > 500
+
+
+def test_dark_is_dark_and_stays(open_page: Open, hull: ah.Hull) -> None:
+    """As the system has it, and as it was chosen, also after a reload."""
+    hand = open_page(hull, color_scheme="dark")
+    ground = "p => getComputedStyle(p.views.body.element).backgroundColor"
+    assert hand.ask(ground) == "rgb(20, 24, 29)"
+    theme = hand.page.locator("[data-action=theme]")
+    theme.click()
+    hand.settled()
+    assert hand.ask(ground) == "rgb(253, 252, 249)"
+    hand.page.reload()
+    hand.page.wait_for_selector(READY)
+    assert hand.ask(ground) == "rgb(253, 252, 249)"
+
+
+def test_every_button_has_a_name_and_every_key_one_effect(open_page: Open, hull: ah.Hull) -> None:
+    """The sheet lists all of them; what the browser owns is left to it."""
+    hand = open_page(hull)
+    actions = hand.ask(
+        "async () => (await import('/actions.js')).ACTIONS.map(({id, words, keys}) => [id,"
+        " words, keys])"
+    )
+    keys = [key for _, _, some in actions for key in some]
+    assert len(keys) == len(set(keys))
+    assert not {
+        "Ctrl+t",
+        "Ctrl+w",
+        "Ctrl+n",
+        "Ctrl+l",
+        "Ctrl+r",
+        *(f"Ctrl+{n}" for n in range(10)),
+    } & set(keys)
+    assert all(words for _, words, _ in actions)
+    hand.page.get_by_role("button", name="Keys").click()
+    sheet = hand.page.get_by_role("dialog").inner_text()
+    assert [words for _, words, _ in actions if words not in sheet] == []
+    hand.page.get_by_role("button", name="Close").click()
+    for button in hand.page.locator("button:visible").all():
+        assert button.inner_text().strip()
+        box = button.bounding_box()
+        assert box is not None
+        assert min(box["width"], box["height"]) >= 24.0
+
+
+def test_the_keyboard_alone_finds_pulls_and_takes_back(open_page: Open, hull: ah.Hull) -> None:
+    """By name, five millimetres, undone; each step is said."""
+    hand, before = open_page(hull), hull.fingerprint
+    keys = hand.page.keyboard
+    keys.press("/")
+    keys.type(POINT.lower())
+    keys.press("Enter")
+    hand.settled()
+    said = hand.page.locator("[aria-live=polite]")
+    assert POINT in (said.text_content() or "")
+    for _ in range(5):
+        keys.press("ArrowUp")
+    keys.press("Enter")
+    hand.until("p => p.store.history.edits === 1")
+    hand.settled()
+    assert "curves followed" in (said.text_content() or "")
+    keys.press("]")
+    hand.settled()
+    assert hand.ask("(p, name) => p.store.selection.row !== p.store.net.find(name)", POINT)
+    keys.press("Control+z")
+    hand.until("p => p.store.history.edits === 0")
+    assert hull.fingerprint == before
+
+
+def test_fingers_pull_and_zoom(open_page: Open, hull: ah.Hull) -> None:
+    """One finger drags a point, two zoom; nothing is edited by the two."""
+    hand = open_page(hull, has_touch=True)
+    hand.near(POINT)
+    x, y = hand.spot(POINT)
+    session = hand.page.context.new_cdp_session(hand.page)
+
+    def touch(kind: str, *places: tuple[float, float]) -> None:
+        points = [{"x": u, "y": v, "id": i} for i, (u, v) in enumerate(places)]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    touch("touchStart", (x, y))
+    touch("touchMove", (x + 5, y))
+    hand.until("p => p.hand.gripped")
+    touch("touchMove", (x + 9, y))
+    hand.until("p => p.store.overlay !== null")
+    touch("touchEnd")
+    hand.settled()
+    assert len(hull.history) == 1
+    scale = hand.ask("p => p.views.body.axis.s")
+    touch("touchStart", (x - 40, y - 60))
+    touch("touchStart", (x - 40, y - 60), (x + 40, y - 60))
+    touch("touchMove", (x - 80, y - 60), (x + 80, y - 60))
+    touch("touchEnd")
+    hand.settled()
+    assert hand.ask("p => p.views.body.axis.s") > 1.5 * scale
+    assert len(hull.history) == 1
+
+
+def test_a_hundred_edits_leave_no_heap_behind(open_page: Open, hull: ah.Hull) -> None:
+    """What is drawn once is forgotten; the page is as it was, and so is the hull."""
+    hand = open_page(hull)
+    session = hand.page.context.new_cdp_session(hand.page)
+
+    def heap() -> float:
+        session.send("HeapProfiler.collectGarbage")
+        return float(session.send("Runtime.getHeapUsage")["usedSize"])
+
+    def edit(count: int) -> None:
+        for number in range(count):
+            hand.ask("(p, y, name) => p.apply('x', [{op: 'move', point: name, y}])",
+                     7.0 + 1e-4 * (number % 2) - 0.11, POINT)  # fmt: skip
+        hand.until("(p, n) => p.store.history.edits === n", done[0] + count)
+        done[0] += count
+
+    done = [0]
+    edit(10)
+    before = heap()
+    edit(90)
+    assert heap() - before < 3e6
+
+
+@pytest.fixture
+def two(open_page: Open, hull: ah.Hull) -> tuple[Hand, Hand]:
+    """Two pages of one hull, of two people."""
+    first = open_page(hull)
+    return first, open_page(server=first.server)
+
+
+def test_a_second_page_sees_what_the_first_has_made(two: tuple[Hand, Hand]) -> None:
+    """As soon as it is published; while one holds a point, the other is told who."""
+    first, second = two
+    first.near(POINT)
+    first.pull(POINT, 4.0)
+    second.until("p => p.store.history.edits === 1")
+    assert second.shows_what_is_published()
+    second.ask("p => p.sign('bert')")
+    x, y = first.press(POINT)
+    first.to(x + 3.0, y)
+    second.near(POINT)
+    u, v = second.spot(POINT)
+    second.page.mouse.move(u, v)
+    second.page.mouse.down()
+    second.page.wait_for_selector(".bubble")
+    assert "anna holds" in second.page.locator(".bubble").inner_text()
+    second.page.mouse.up()
+    first.release()
+    second.until("p => p.store.history.edits === 2")
+    second.settled()
+    assert "anna's" in (second.page.get_by_role("button", name="Undo").get_attribute("title") or "")
+    second.page.keyboard.press("Control+z")
+    second.page.wait_for_selector(".banner:not([hidden])")
+    assert "bert" in second.page.locator(".banner").inner_text()
+    assert len(first.hull.history) == 2
+
+
+def test_the_points_of_a_line_stand_in_a_table(open_page: Open, hull: ah.Hull) -> None:
+    """In their order along it, each chosen from there; it follows what is committed."""
+    hand = open_page(hull)
+    hand.page.mouse.click(*hand.spot(POINT))
+    hand.page.keyboard.press("a")
+    rows = hand.page.locator("aside table tbody tr")
+    hand.page.wait_for_selector("aside table")
+    shown = rows.all_inner_texts()
+    assert len(shown) == len(hull.lines["ST 16"].curves[0].points)
+    heights = [float(text.split()[-1]) for text in shown]
+    assert heights == sorted(heights) or heights == sorted(heights, reverse=True)
+    hand.page.locator("aside table button", has_text="WL 0.5").first.click()
+    hand.settled()
+    assert hand.ask("p => p.store.net.points.get(p.store.selection.row).name") == "WL 0.5 x ST 16"
+    before = rows.all_inner_texts()
+    hand.ask("p => p.activeView().upper.focus()")
+    hand.page.keyboard.press("Shift+ArrowUp")
+    hand.page.keyboard.press("Enter")
+    hand.until("p => p.store.history.edits === 1")
+    hand.settled()
+    assert rows.all_inner_texts() != before
+
+
+def test_what_is_wrong_is_listed_and_found(open_page: Open, hull: ah.Hull) -> None:
+    """Nothing here; what was found is told to be old after an edit."""
+    hand = open_page(hull)
+    hand.page.mouse.click(*hand.spot(POINT))
+    hand.page.keyboard.press("Shift+P")
+    hand.until("p => p.panel.problems.found !== null")
+    assert "Nothing is wrong." in hand.page.locator("aside").inner_text()
+    hand.ask("p => p.activeView().upper.focus()")
+    hand.page.keyboard.press("ArrowUp")
+    hand.page.keyboard.press("Enter")
+    hand.until("p => p.store.history.edits === 1")
+    hand.settled()
+    assert "before the last edit" in hand.page.locator("aside").inner_text()

@@ -1,0 +1,84 @@
+"""A server that is killed in the middle of a drag: nothing committed is lost, the page says so."""
+
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import attrs
+from playwright.sync_api import Browser
+
+import assoc_hull as ah
+from tests.browser.conftest import READY, Hand
+
+POINT = "WL 0.625 x ST 16"
+
+
+@attrs.define(eq=False)
+class Process:
+    """A server in a process of its own, as far as a hand needs it."""
+
+    address: str
+    run: "subprocess.Popen[str]"
+
+
+def started(path: Path, port: int = 0) -> Process:
+    """Start a server, and wait for its address."""
+    command = [sys.executable, "-m", "assoc_hull.cli", "page", str(path), "--no-browser", "--json"]
+    run = subprocess.Popen(
+        [*command, "--stay", "--port", str(port), "--author", "anna"],
+        stdout=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    text = ""
+    while "}" not in text:
+        assert run.stdout is not None
+        text += run.stdout.readline()
+    return Process(json.loads(text)["address"], run)
+
+
+def test_a_killed_server_loses_nothing_that_was_committed(
+    browser: Browser, hull: ah.Hull, tmp_path: Path
+) -> None:
+    """The picture stays; a new server has the edits, and the new address shows them."""
+    path = tmp_path / "ship.hull"
+    hull.snapshot().save(path)
+    first = started(path)
+    context = browser.new_context(viewport={"width": 1440, "height": 840}, bypass_csp=True)
+    page = context.new_page()
+    page.goto(first.address)
+    page.wait_for_selector(READY)
+    hand = Hand(page, first)  # type: ignore[arg-type]
+    hand.near(POINT)
+    hand.pull(POINT, 4.0)
+    hand.until("p => p.store.history.edits === 1")
+    x, y = hand.press(POINT)
+    hand.to(x + 3.0, y)
+    first.run.send_signal(signal.SIGKILL)
+    first.run.communicate()
+    page.wait_for_selector(".banner:not([hidden])")
+    assert "kept" in page.locator(".banner").inner_text()
+    assert hand.ask("p => p.store.held === null && p.store.overlay === null")
+    assert hand.ask("p => p.store.curves.size") > 70
+    page.mouse.up()
+    second = started(path, int(first.address.split(":")[2].split("/")[0]))
+    try:
+        page.wait_for_selector("[data-connection=over]")
+        assert "open the new one" in page.locator(".banner").inner_text()
+        fresh = context.new_page()
+        fresh.goto(second.address)
+        fresh.wait_for_selector(READY)
+        other = Hand(fresh, second)  # type: ignore[arg-type]
+        other.until("p => p.store.history.edits === 1")
+        other.near(POINT)
+        other.pull(POINT, 3.0)
+        other.until("p => p.store.history.edits === 2")
+    finally:
+        second.run.send_signal(signal.SIGINT)
+        second.run.communicate(timeout=30.0)
+        assert second.run.returncode == 130
+        context.close()
+    opened = ah.open(path)
+    assert [step.author for step in opened.history] == ["anna", "anna"]
+    assert opened.verify() == ()
+    opened.close()
