@@ -128,6 +128,10 @@ class TriedNumbers(Protocol):
 class LateAnswer(Protocol):
     """What an edit asks for that waits until all else has been carried out."""
 
+    @property
+    def idle(self) -> bool:
+        """Whether all that is asked for is so already."""
+
     def carry_out(self) -> None:
         """Carry it out, as stages of the edit."""
 
@@ -221,7 +225,8 @@ class Pending:
     @property
     def empty(self) -> bool:
         """Whether no modification is there that takes more than places and recipes."""
-        return self.answer is None and all(each.idle for each in self.modifications.values())
+        late = self.answer is None or self.answer.idle
+        return late and all(each.idle for each in self.modifications.values())
 
     @property
     def displaces(self) -> bool:

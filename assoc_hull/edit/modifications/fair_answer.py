@@ -351,6 +351,12 @@ class FairAnswer:
             found = edit.pending.answer = cls(edit)
         return found
 
+    @property
+    def idle(self) -> bool:
+        """Whether all that is asked of points is so already."""
+        xyz = self.edit.state.rows.xyz
+        return not self.asked and all((xyz[each.rows] == each.to).all() for each in self.leads)
+
     def carry_out(self) -> None:
         """Search for the answer, and leave it as the last stage of the edit.
 

@@ -27,6 +27,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.links import free_axes
 from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.tables import HullState
 from assoc_hull.tolerance import IN_PLANE
@@ -87,7 +88,7 @@ def lead(
     for row, xyz in asked:
         chooser.refuse_outside(xyz, span)
         chooser.take(row, xyz)
-    _ask(edit, chooser, span)
+    _ask(edit, [chooser], span)
     return chooser.made
 
 
@@ -101,7 +102,7 @@ def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:
     state, line = edit.state, edit.state.line_of(curve)
     name = str(state.lines.name[line])
     xyz = one_place(place, f"the place of a point of {name}")
-    chooser = _Chooser(edit, name, f"in insert into {name}", [curve])
+    chooser = _Chooser(edit, name, f"in insert into {name}", [curve], by_lead=False)
     spline = state.spline(curve)
     at, foot, away = closest_points(spline, 0, xyz[None])
     inside = 0.0 < float(at[0]) < float(spline.knot[-1])
@@ -112,7 +113,7 @@ def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:
     if not inside or held or not _leads(state, line) or not _is_off(state, float(away[0])):
         return points.insert(edit, curve, xyz)
     chooser.take(None, xyz)
-    _ask(edit, chooser, None)
+    _ask(edit, [chooser], None)
     (row,) = chooser.asked[curve]
     return row
 
@@ -140,10 +141,10 @@ def put(edit: Transaction, freedoms: Sequence[PointFreedom], places: FloatArray)
         curve = int(state.rows.curve[row, 0])
         if curve not in choosers:
             name = str(state.lines.name[state.line_of(curve)])
-            choosers[curve] = _Chooser(edit, name, f"in move on {name}", [curve])
+            choosers[curve] = _Chooser(edit, name, f"in move on {name}", [curve], by_lead=False)
         choosers[curve].take(row, place)
-    for chooser in choosers.values():
-        _ask(edit, chooser, None)
+    if choosers:
+        _ask(edit, list(choosers.values()), None)
 
 
 def put_pinned(edit: Transaction, freedoms: Sequence[PointFreedom], places: FloatArray) -> None:
@@ -181,29 +182,39 @@ def _is_off(state: HullState, away: float) -> bool:
     return away > _OFF * state.particulars.length
 
 
-def _ask(edit: Transaction, chooser: _Chooser, span: tuple[float, float] | None) -> None:
+def _ask(edit: Transaction, choosers: Sequence[_Chooser], span: tuple[float, float] | None) -> None:
+    """Ask for what was chosen; what is asked of one curve over one stretch is one lead."""
     # What solves sparse systems is imported by whoever asks for it.
     from assoc_hull.edit.modifications.fair_answer import FairAnswer
 
     answer = FairAnswer.of(edit)
-    for curve, asked in chooser.asked.items():
-        rows = np.array(sorted(asked), np.int64)
-        to = np.array([asked[row] for row in rows.tolist()])
-        answer.leads.append(LineLed(chooser.name, curve, rows, to, span))
-        edit.pending.moved_curves.add(curve)
+    leads = {(each.curve, each.span): each for each in answer.leads}
+    for chooser in choosers:
+        for curve, asked in chooser.asked.items():
+            before = leads.get((curve, span))
+            goals = {} if before is None else before.goals()
+            for row, goal in asked.items():
+                chooser.put(goals, row, goal)
+            rows = sorted(goals)
+            to = np.array([goals[row] for row in rows])
+            leads[curve, span] = LineLed(chooser.name, curve, np.array(rows, np.int64), to, span)
+    answer.leads = list(leads.values())
+    edit.pending.moved_curves |= {curve for chooser in choosers for curve in chooser.asked}
 
 
 @attrs.define(eq=False)
 class _Chooser:
     """Finds the points of a line that places are meant for, and makes those that are new.
 
-    `asked` are their goals by curve and point.
+    `asked` are their goals by curve and point; `by_lead` tells that of `edit.lead`, which errors
+    name, from points that could be pinned instead.
     """
 
     edit: Transaction
     name: str
     where: str
     curves: Sequence[int]
+    by_lead: bool = True
     asked: dict[int, dict[int, FloatArray]] = attrs.field(factory=dict)
     made: list[int] = attrs.field(factory=list)
 
@@ -244,11 +255,20 @@ class _Chooser:
         self._ask(curve, row, xyz)
 
     def _ask(self, curve: int, row: int, xyz: FloatArray) -> None:
-        goals = self.asked.setdefault(curve, {})
-        if row in goals and (goals[row] != xyz).any():
+        self.put(self.asked.setdefault(curve, {}), row, xyz)
+
+    def put(self, goals: dict[int, FloatArray], row: int, xyz: FloatArray) -> None:
+        """Note a goal; a point that the same edit has made comes where it is asked last."""
+        moved = row in goals and (goals[row] != xyz).any()
+        if moved and (row in self.made or not self._is_new(row)):
             what = f"{address(self.state, row)} is asked to be in two places"
             raise BadInputError(what, self.where, "leave one of the two out")
         goals[row] = xyz
+
+    def _is_new(self, row: int) -> bool:
+        """Tell whether the edit has made a point."""
+        known = self.state.published().rows
+        return row >= known.count or not known.alive[row]
 
     def _curve_of(self, row: int) -> int:
         """Give the curve of the line that a point lies on."""
@@ -296,11 +316,21 @@ class _Chooser:
         if away.min() >= self.state.tolerances.factor * _BESIDE:
             return None
         if table.sort[row] == Sort.PLACED:
-            x, y, z = (round(value, 6) for value in xyz.tolist())
-            what = f"the placed point {address(self.state, row)} lies {away.min():.3g} m beside it"
-            remedy = f"lead that point: ({address(self.state, row)!r}, ({x}, {y}, {z}))"
-            raise BadInputError(what, self.where, remedy)
+            name = address(self.state, row)
+            what = f"the placed point {name} lies {away.min():.3g} m beside it"
+            raise BadInputError(what, self.where, self._instead(row, xyz))
         return row
+
+    def _instead(self, row: int, xyz: FloatArray) -> str:
+        """Say what to do where a place is meant that lies beside a placed point."""
+        if self._is_new(row):
+            return "leave one of the two out, or use two edits and move the point"
+        name, place = repr(address(self.state, row)), [round(each, 6) for each in xyz.tolist()]
+        if self.by_lead:
+            return f"lead that point: ({name}, {tuple(place)})"
+        free = free_axes(self.state, row)
+        to = ", ".join(f"{axis}={place['xyz'.index(axis)]}" for axis in free)
+        return f"move that point: edit.move({name}, {to}), or pin another (lead=False)"
 
     def _in_plane(self, curve: int, row: int, xyz: FloatArray) -> bool:
         """Tell whether a place lies in the plane of the line that crosses."""
@@ -317,7 +347,8 @@ class _Chooser:
         driver = int(table.driver[row])
         if table.role[row] != Role.WATCHED and driver != curve:
             title = str(self.state.lines.name[self.state.line_of(driver)])
-            ways = f"lead {title}, or make it shared (edit.set_role)"
+            pinned = "" if self.by_lead else ", or pin a point beside it (lead=False)"
+            ways = f"lead {title}, or make it shared (edit.set_role){pinned}"
             raise PointRoleError(address(self.state, row), "driven", title, ways)
         spot = table.spot[row, int(table.curve[row, 1] == curve)]
         rows: IntArray = self.state.curves.rows[curve]

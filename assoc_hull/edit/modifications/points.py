@@ -119,10 +119,12 @@ def put_pinned(edit: Transaction, freedoms: Sequence[PointFreedom], places: Floa
 
 def note_pinned(edit: Transaction, name: str) -> None:
     """Say that a point is put between others that stay."""
-    edit.pending.notes.append(
+    note = (
         f"{name} is put between points that stay: the line bends there and the hull does not "
         "follow; with lead=True it does"
     )
+    if note not in edit.pending.notes:
+        edit.pending.notes.append(note)
 
 
 Put = Callable[[Transaction, Sequence["PointFreedom"], FloatArray], None]

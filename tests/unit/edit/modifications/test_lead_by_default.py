@@ -8,7 +8,12 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.modifications import points as pinned
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import CoincidentPointsError, WrongTypeError
+from assoc_hull.errors import (
+    BadInputError,
+    CoincidentPointsError,
+    PointRoleError,
+    WrongTypeError,
+)
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
 from tests.conftest import Shipped
@@ -132,6 +137,81 @@ def test_boundary_curves_flats_and_features_are_pinned(shipped: Shipped) -> None
         edit.insert("WL 2.5", _beside(wigley, 0.002, 27.0))
     assert not any(each.led for each in wigley.history)
     assert "WL 2.5 straight" not in wigley.features
+
+
+def test_inserts_and_moves_of_one_edit_are_one_lead_to_the_bit(shipped: Shipped) -> None:
+    """In any order, and as if they were asked of `edit.lead` at once."""
+    prints = []
+    for way in ("inserts", "other way round", "one lead"):
+        hull = shipped("wigley")
+        with hull.edit("on the line") as edit:
+            edit.insert("WL 2.5", _beside(hull, 0.0, 57.0))
+        (placed,) = [each for each in hull.lines["WL 2.5"].points if each.sort == "placed"]
+        places = [_beside(hull, 0.01), np.add(placed.position, (0.0, 0.01, 0.0))]
+        with hull.edit(way) as edit:
+            if way == "one lead":
+                edit.lead("WL 2.5", [places[0], (placed, places[1])])
+            elif way == "inserts":
+                edit.insert("WL 2.5", places[0])
+                edit.move(placed, by=(0.0, 0.01, 0.0))
+            else:
+                edit.move(placed, by=(0.0, 0.01, 0.0))
+                edit.insert("WL 2.5", places[0])
+        (led,) = hull.history[-1].led
+        assert len(led.asked) == 2
+        prints.append(hull.fingerprint)
+    assert len(set(prints)) == 1
+
+
+def test_a_point_that_the_same_edit_has_inserted_comes_where_it_is_moved(wigley: Hull) -> None:
+    """Others are asked to be in one place only."""
+    place = _beside(wigley, 0.02)
+    with wigley.edit("insert") as edit:
+        point = edit.insert("WL 2.5", _beside(wigley, 0.01))
+        edit.move(point, x=place[0], y=place[1])
+    assert np.array_equal(point.position, place)
+    twice = pytest.raises(BadInputError, match="is asked to be in two places, in move on WL 2.5")
+    with twice, wigley.edit("twice") as edit:
+        edit.move(point, by=(0.0, 0.01, 0.0))
+        edit.move(point, by=(0.0, 0.02, 0.0))
+
+
+def test_a_move_to_where_a_point_lies_is_no_step(wigley: Hull) -> None:
+    """As of a pinned one."""
+    with wigley.edit("insert") as edit:
+        point = edit.insert("WL 2.5", _beside(wigley, 0.0))
+    with wigley.edit("nowhere") as edit:
+        edit.move(point, x=point.x, y=point.y)
+    assert len(wigley.history) == 1
+    assert edit.report is not None
+    assert not edit.report.changed
+
+
+def test_what_is_refused_says_what_to_do_and_that_works(wigley: Hull) -> None:
+    """Beside a placed point, and where another line drives."""
+    with wigley.edit("insert") as edit:
+        edit.insert("WL 2.5", _beside(wigley, 0.0))
+    x, y, _ = _beside(wigley, 0.01, 37.1).tolist()
+    with pytest.raises(BadInputError) as error, wigley.edit("beside") as edit:
+        edit.insert("WL 2.5", (x, y, 2.5))
+    assert f"edit.move('WL 2.5 @ placed 1', x={x:.6f}" in str(error.value)
+    with wigley.edit("as it says") as edit:
+        edit.move("WL 2.5 @ placed 1", x=round(x, 6), y=round(y, 6))
+    assert _led(wigley)
+    with wigley.edit("or pinned") as edit:
+        edit.insert("WL 2.5", (x + 0.1, y, 2.5), lead=False)
+    with pytest.raises(BadInputError, match="leave one of the two out"), wigley.edit("x") as edit:
+        edit.insert("WL 2.5", _beside(wigley, 0.01, 63.0))
+        edit.insert("WL 2.5", _beside(wigley, 0.01, 63.1))
+    with wigley.edit("one-way") as edit:
+        edit.associate("sections", "waterlines", two_way=False)
+    place = np.add(wigley.points["WL 5 x ST 7"].position, (0.0, 0.005, 0.0))
+    driven = pytest.raises(PointRoleError, match=r"lead ST 7.*or pin a point .*\(lead=False\)$")
+    with driven, wigley.edit("driven") as edit:
+        edit.insert("WL 5", place)
+    with wigley.edit("the driver") as edit:
+        edit.lead("ST 7", [place])
+    assert np.allclose(wigley.points["WL 5 x ST 7"].position, place, rtol=0.0, atol=1e-9)
 
 
 def test_scripts_write_it_out_and_leave_points_pinned_without_it(wigley: Hull) -> None:
