@@ -7,7 +7,7 @@ class, and a line in the table of `assoc_hull.edit.update`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from copy import copy
 from typing import Protocol, TypeVar, cast
 
@@ -74,6 +74,15 @@ class Modification:
         """Give points (k,) that it puts to given places, and these, (k, 3), m."""
         return ()
 
+    @property
+    def asked_for(self) -> int:
+        """How many things it was asked for so far."""
+        return 0
+
+    def reached(self, state: HullState) -> Sequence[IntArray]:
+        """Give the nodes (k,) that each of these things may set, in the order of asking."""
+        return ()
+
     def plan(self, work: Work) -> None:
         """Write the structure that it needs; places that were asked for are not there yet."""
 
@@ -131,6 +140,9 @@ class LateAnswer(Protocol):
     @property
     def idle(self) -> bool:
         """Whether all that is asked for is so already."""
+
+    def reached(self) -> Iterable[tuple[str, IntArray]]:
+        """Give in words each thing that is asked for, and the nodes (k,) that it may set."""
 
     def carry_out(self) -> None:
         """Carry it out, as stages of the edit."""

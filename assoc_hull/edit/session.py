@@ -212,7 +212,7 @@ class Edit:
 
     def _note(self, change: dict[str, Said]) -> None:
         """Keep a modification that was asked for, as data."""
-        self._held.script.append(change)
+        self._held.note(change)
 
     @property
     def _transaction(self) -> Transaction:
