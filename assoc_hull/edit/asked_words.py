@@ -26,7 +26,7 @@ _WORDS = {
     "straighten": "the straightening of {line}",
     "round": "the rounding of {line}",
     "transform": "the transformation",
-    "set_form": "the new values of {name}",
+    "set_form": "the new values of {definition}",
 }
 """By modification, with names of its arguments."""
 
@@ -41,18 +41,22 @@ def asked_words(change: Mapping[str, Said]) -> str:
     """Say a modification in words; of one without words of its own, its name and first argument."""
     op = str(change.get("op", ""))
     if op in _WORDS:
-        return _WORDS[op].format_map({name: _named(value) for name, value in change.items()} | {
-            name: "the hull" for name in ("lines",) if change.get(name) is None
-        })  # fmt: skip
+        named = {name: _named(value) for name, value in change.items()}
+        if change.get("lines") is None:
+            named["lines"] = "the hull"
+        return _WORDS[op].format_map(named)
     first = next((value for name, value in change.items() if name != "op"), None)
     title = op.replace("_", " ")
     return f"{title} of {_named(first)}" if isinstance(first, str | list) else title
 
 
-def field_words(script: Iterable[Mapping[str, Said]]) -> tuple[str, ...]:
-    """Say those modifications of a script that set points which nobody named, each once."""
-    found = (asked_words(each) for each in script if each.get("op") in _FIELDS or each.get("lead"))
-    return tuple(dict.fromkeys(found))
+def field_words(script: Iterable[Mapping[str, Said]], *, leads: bool) -> tuple[str, ...]:
+    """Say those modifications of a script that set points which nobody named, each once.
+
+    `leads`: whether lines led; else what may lead, and says so, was pinned.
+    """
+    chosen = (each for each in script if each.get("op") in _FIELDS or (leads and each.get("lead")))
+    return tuple(dict.fromkeys(map(asked_words, chosen)))
 
 
 def joined_words(words: Sequence[str]) -> str:

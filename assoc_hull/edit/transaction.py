@@ -380,8 +380,8 @@ class Transaction:
             )  # fmt: skip
         else:
             step = update(self.document, self.name, self.journal, self.pending, self.settings)
+        step.script = Script.of(self.script, self.settings, self.varied, self.varied_before)
         if self.look is None:
-            step.script = Script.of(self.script, self.settings, self.varied, self.varied_before)
             if (known := self.pending.numbers) is not None:
                 step.change = known.change()
             # Known before it is committed: behind that nothing is taken back.

@@ -273,8 +273,9 @@ def why_after(
     for step in reversed(steps):
         traces = _NamedTraces(state, book, step, step.number or coming, least)
         if traces.tracer.knows(node):
-            because = joined_words(field_words(step.script.edits))
-            return attrs.evolve(traces.name(traces.tracer.trace(node)), because=because)
+            return attrs.evolve(
+                traces.name(traces.tracer.trace(node)), because=joined_words(traces.fields)
+            )
     return Why(_key(state, node), _name(book, node), None, 0, None, _still(state, node))
 
 
@@ -400,7 +401,8 @@ class _NamedTraces:
         self, state: HullState, book: AddressBook, step: Step, number: int, least: float | None
     ) -> None:
         self.state, self.book, self.step, self.number = state, book, step, number
-        self._least, self._field = least, bool(field_words(step.script.edits))
+        self._least = least
+        self.fields = field_words(step.script.edits, leads=bool(step.report.led))
         self.tracer = CauseTracer(step.cause, step.changed, step.moved, step.seeds)
         self._done: dict[int, Why] = {}
         self._made = frozenset((2 * attached_rows(state)).tolist())
@@ -422,7 +424,7 @@ class _NamedTraces:
         """Leave out causes that moved less than the least that was asked, but for the first."""
         least = self._least
         if least is None:
-            least = _SLIGHT * causes[0].moved if self._field and causes else 0.0
+            least = _SLIGHT * causes[0].moved if self.fields and causes else 0.0
         # What the edit set by itself has no amount, and is kept.
         return [each for i, each in enumerate(causes) if i == 0 or not each.moved < least]
 
