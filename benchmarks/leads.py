@@ -243,7 +243,7 @@ def _lead(hull: ah.Hull, curve: int, at: float, amount: float, tally: Tally) -> 
     )
     foot, along = np.array(handle.at(at)), np.array(handle.tangent(at))
     across = np.cross(state.lines.normal[state.line_of(curve)], along)
-    goal = foot + amount * across / np.sqrt((across * across).sum())
+    goal: FloatArray = foot + amount * across / np.sqrt((across * across).sum())
     with hull.edit("on the line") as edit:
         edit.insert(key, foot)
     before, roles = sign_changes(state), state.rows.role.data.astype(np.int64)

@@ -112,8 +112,8 @@ def _seeds(
         yield each.words, Node.point(np.array(chosen, np.int64))
         yield each.words, Node.curve(_sorted(each.curves - before.curves))
         yield each.words, Node.point(_sorted(each.computed - before.computed))
-        for kind, nodes in fields.items():
-            for more in nodes[before.fields.get(kind, 0) : each.fields.get(kind, 0)]:
+        for kind, found in fields.items():
+            for more in found[before.fields.get(kind, 0) : each.fields.get(kind, 0)]:
                 yield each.words, more
         before = each
     if pending.answer is not None:

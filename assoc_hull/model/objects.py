@@ -388,6 +388,11 @@ class Crossing(Handle):
         return value if np.isfinite(value) else None
 
     @property
+    def dirty(self) -> DirtyCause | None:
+        """Because of what it is dirty: reached by what the open edit asked for; None if clean."""
+        return _dirty(self, Node.point(self.number))
+
+    @property
     def state(self) -> str:
         """``"clean"``, ``"failed"`` or ``"blocked"``."""
         tables, row = self._here()

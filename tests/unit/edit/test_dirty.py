@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 
+import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError, UnknownNameError
@@ -35,7 +36,7 @@ def test_what_a_moved_point_reaches_is_dirty_until_the_edit_ends(wigley: Hull) -
         assert str(wigley.lines["ST 7"].dirty) == str(wigley.lines["ST 7"].curves[0].dirty)
         assert str(dirty["st 7"]) == f"because of the move of {_POINT}, through {_POINT}"
         assert wigley.lines["ST 3"].dirty is None
-        assert wigley["WL 5 x ST 3"].dirty is None
+        assert wigley.points["WL 5 x ST 3"].dirty is None
         assert str(dirty).startswith(f"dirty because of the move of {_POINT}: ")
         with pytest.raises(UnknownNameError):
             dirty["ST 3"]
@@ -135,7 +136,7 @@ def test_the_picture_tints_what_is_dirty(wigley: Hull) -> None:
     colours = {line.get_gid(): line.get_color() for line in figure.axes[0].lines}
     assert colours["body/sections/ST 7"] != colours["body/sections/ST 6"]
     dots = [line for line in figure.axes[0].lines if line.get_gid() == "dirty points"]
-    assert sum(len(line.get_xdata()) for line in dots) == 2
+    assert sum(np.size(line.get_xdata()) for line in dots) == 2
 
 
 def test_steps_have_one_number_everywhere(wigley: Hull) -> None:
