@@ -117,8 +117,7 @@ def _seeds(
                 yield each.words, more
         before = each
     if pending.answer is not None:
-        for asking, nodes in pending.answer.reached():
-            yield asking, nodes
+        yield from pending.answer.reached()
 
 
 def _moves(state: HullState, pending: Pending, row: int) -> bool:

@@ -60,7 +60,7 @@ def test_each_object_names_what_reached_it_first(wigley: Hull) -> None:
 def test_what_may_follow_is_dirty_before_the_answer_is_known(shipped: Shipped, act: str) -> None:
     """A lead and a fair pull are solved when the edit ends: what they reach at most is dirty."""
     hull = shipped("wigley")
-    place = hull.lines["WL 2.5"].curves[0].at(37.0) + (0.0, 0.01, 0.0)
+    place = np.add(hull.lines["WL 2.5"].curves[0].at(37.0), (0.0, 0.01, 0.0))
     with hull.edit(act) as edit:
         if act == "lead":
             edit.lead("WL 2.5", [place])
