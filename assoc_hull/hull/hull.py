@@ -139,6 +139,15 @@ class Hull:
         ship = self.particulars
         return f"<Hull {ship.name}, {len(self.lines)} lines, {len(self.document.history)} edits>"
 
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
+        # Asked by notebooks, which take from it what they can show.
+        from assoc_hull.hull.notebook import mimebundle_of
+
+        return mimebundle_of(self.state, repr(self))
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self.lines, *self.groups]
+
     @property
     def state(self) -> HullState:
         """The published tables; they stay as they are, whatever is edited later."""
