@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 
+from assoc_hull.display import ShownAsText
 from assoc_hull.edit.asked_words import joined_words
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.dirty_cause import DirtyCause, cause_of, node_name
@@ -32,7 +33,7 @@ from assoc_hull.model.tables import HullState
 __all__ = ["Dirty"]
 
 
-class Dirty(Mapping[str, DirtyCause]):
+class Dirty(ShownAsText, Mapping[str, DirtyCause]):
     """Dirty curves, points and definitions by address, each with because of what it is that.
 
     It holds all that is made from what was asked for: the update evaluates no other, but for the
