@@ -75,7 +75,7 @@ def needless(report: EditReport, wanted: set[str], task: Task) -> set[str]:
     return set(report.relofted) - wanted
 
 
-MOVES_IN_STEPS = {"pull", "reshape", "straighten", "round", "spread"}
+MOVES_IN_STEPS = {"pull", "reshape", "lead", "straighten", "round", "spread"}
 
 
 @settings(max_examples=25)
