@@ -112,7 +112,7 @@ HULL: dict[str, Given] = {
     "snapshot": {},
     "redo": {"n": 0},
     "find": {"address": POINT},
-    "why": {"thing": POINT},
+    "why": {"thing": POINT, "step": None, "least": 1e-4},
     "check": {"notes": False},
     "verify": {"relative": 0.0},
     "graph": {"around": POINT, "up": 1, "down": 1, "only": "two-way", "edit": None},
