@@ -23,6 +23,8 @@ import attrs
 import numpy as np
 
 import assoc_hull as ah
+from assoc_hull.edit.displacement_field import level_with_flats
+from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.net_battens import fairable_rows
 from assoc_hull.edit.report import EditReport
 from assoc_hull.errors import AssocHullError, PointRoleError
@@ -225,6 +227,7 @@ def _edit_from_crossing_lines(
 def _intervals(state: HullState, family: str) -> Iterator[tuple[int, float]]:
     """Give the curves of a family, and the middles between two free points of each."""
     free = fairable_rows(state)
+    free = free[~level_with_flats(state, free, hull_normals(state)[free])]
     for curve in state.live("curves").tolist():
         if state.family(state.line_of(curve)).name != family:
             continue
