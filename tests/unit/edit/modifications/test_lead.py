@@ -352,7 +352,7 @@ def test_what_is_so_already_is_no_step(wigley: Hull) -> None:
     assert wigley.fingerprint == before
     assert edit.report is not None
     assert not edit.report.changed
-    assert "the hull is there already" in edit.report.notes[0]
+    assert "nothing was changed" in edit.report.notes[-1]
     assert not wigley.history
     line = wigley.lines["WL 2.5"].curves[0]
     place = np.add(line.at(55.0), (0.0, 0.01, 0.0))
