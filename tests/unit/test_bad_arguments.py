@@ -546,7 +546,7 @@ FLOATING: dict[str, Given] = {
     "study": {
         "set": {"breadth": 11.0}, "reach": None, "free": (), "bounds": None, "layers": (),
         "outputs": ("volume",), "layout": None, "workers": 1, "progress": None,
-        "file": None, "cluster": None,
+        "file": None, "cluster": None, "fair": False,
     },
     "shift_sections": {
         "to": None, "by": {"cb": 0.005}, "shape": "c2", "terminals": None, "fade": "b5",
