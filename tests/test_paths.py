@@ -11,12 +11,11 @@ MOST = {
     # what is published has look-ups of its own, for others who read it meanwhile: `model.index`
     # `model.change` tells what an edit changed: old steps of a hull in memory hold that alone
     # keys of points are texts when they are asked for, of `model.keys`
-    # `modifications.lead` says whether a move leads; what was asked, in words and as seeds of what is
-    # dirty, are `asked_words` and `dirty_seeds`
-    "a moved point": 57,
+    # a move asks `modifications.lead` whether its point leads
+    "a moved point": 55,
     # one run stands in the place of the passes; in numpy it enters what they do to loft and cut
-    "a moved point, by the program": 48,
-    "a pull": 63,
+    "a moved point, by the program": 46,
+    "a pull": 61,
     # columns are read through `graph.table`, by `column[row]`; a surface that is laid out and one
     # that is put on other lines are one thing, `net_surface`
     "hydrostatics": 32,

@@ -8,13 +8,14 @@ loft are told beside.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-import attrs
 import numpy as np
 
+from assoc_hull.edit.asked_words import asked_words
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.modification import Modification, Pending
+from assoc_hull.edit.modification import Extent, Pending
+from assoc_hull.edit.recording import Said
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.network import spread
 from assoc_hull.model.dirty_nodes import DirtyNodes
@@ -24,44 +25,15 @@ from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
-__all__ = ["Extent", "dirty_nodes"]
+__all__ = ["dirty_nodes"]
 
 _NONE: IntArray = np.zeros(0, np.int64)
 
 
-@attrs.frozen
-class Extent:
-    """How much an edit had been asked for at some time: what came later is more than that.
-
-    Attributes
-    ----------
-    words : str
-        What was asked last, in words.
-    values : int
-        How many points had places.
-    fields : dict of type to int
-        By kind of modification, how many things were asked of it.
-    curves, computed : frozenset of int
-        Curves with another recipe, and crossings computed from another curve.
-    """
-
-    words: str
-    values: int = 0
-    fields: dict[type[Modification], int] = attrs.field(factory=dict)
-    curves: frozenset[int] = frozenset()
-    computed: frozenset[int] = frozenset()
-
-    @classmethod
-    def of(cls, words: str, pending: Pending) -> Extent:
-        """Take it of what is pending now."""
-        fields = {kind: each.asked_for for kind, each in pending.modifications.items()}
-        curves = frozenset(pending.curves | set(pending.fresh))
-        return cls(words, len(pending.values), fields, curves, frozenset(pending.computed))
-
-
 def dirty_nodes(
-    document: Document, pending: Pending, asked: Sequence[Extent], done: IntArray, name: str
-) -> DirtyNodes:
+    document: Document, pending: Pending, script: Sequence[Mapping[str, Said]],
+    extents: Sequence[Extent], done: IntArray, name: str,
+) -> DirtyNodes:  # fmt: skip
     """Give what is dirty.
 
     Parameters
@@ -70,8 +42,8 @@ def dirty_nodes(
         The hull.
     pending : Pending
         What is asked for and not yet carried out.
-    asked : sequence of Extent
-        What had been asked for after each modification, in their order.
+    script, extents : sequence of dict, sequence of Extent
+        The modifications in their order, and how much was pending after each.
     done : (k,) int
         Nodes that stages of the edit have changed already.
     name : str
@@ -79,8 +51,9 @@ def dirty_nodes(
     """
     state = document.state
     network = HullNetwork(state, document.index_of(state))
-    words, by = [each.words for each in asked], dict[int, int]()
-    for asking, nodes in _seeds(state, pending, asked, done, name):
+    words, by = [asked_words(each) for each in script], dict[int, int]()
+    marks = list(zip(words, extents, strict=True))
+    for asking, nodes in _seeds(state, pending, marks, done, name):
         if len(nodes) and asking not in words:
             words.append(asking)
         for node in nodes.tolist():
@@ -94,11 +67,11 @@ def dirty_nodes(
 
 
 def _seeds(
-    state: HullState, pending: Pending, asked: Sequence[Extent], done: IntArray, name: str
+    state: HullState, pending: Pending, asked: list[tuple[str, Extent]], done: IntArray, name: str
 ) -> Iterator[tuple[str, IntArray]]:
     """Give the nodes that were asked for, with the words of what asked first."""
     edit = f"the edit {name!r}"
-    last = asked[-1].words if asked else edit
+    last = asked[-1][0] if asked else edit
     yield edit, done
     if pending.alone:
         every = Node.curve(state.live("curves")), Node.point(state.live("rows"))
@@ -106,15 +79,15 @@ def _seeds(
         return
     rows = list(pending.values)
     fields = {kind: each.reached(state) for kind, each in pending.modifications.items()}
-    before = Extent("")
-    for each in [*asked, Extent.of(edit, pending)]:
+    before = Extent()
+    for words, each in [*asked, (edit, pending.extent())]:
         chosen = [row for row in rows[before.values : each.values] if _moves(state, pending, row)]
-        yield each.words, Node.point(np.array(chosen, np.int64))
-        yield each.words, Node.curve(_sorted(each.curves - before.curves))
-        yield each.words, Node.point(_sorted(each.computed - before.computed))
+        yield words, Node.point(np.array(chosen, np.int64))
+        yield words, Node.curve(_sorted(each.curves - before.curves))
+        yield words, Node.point(_sorted(each.computed - before.computed))
         for kind, found in fields.items():
             for more in found[before.fields.get(kind, 0) : each.fields.get(kind, 0)]:
-                yield each.words, more
+                yield words, more
         before = each
     if pending.answer is not None:
         yield from pending.answer.reached()

@@ -35,7 +35,7 @@ from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
-__all__ = ["ROUNDS", "LateAnswer", "Modification", "Pending", "TriedNumbers", "Work"]
+__all__ = ["ROUNDS", "Extent", "LateAnswer", "Modification", "Pending", "TriedNumbers", "Work"]
 
 _NONE: IntArray = np.zeros(0, np.int64)
 
@@ -148,6 +148,26 @@ class LateAnswer(Protocol):
         """Carry it out, as stages of the edit."""
 
 
+@attrs.frozen
+class Extent:
+    """How much was pending at some time: what came later is more than that.
+
+    Attributes
+    ----------
+    values : int
+        How many points had places.
+    fields : dict of type to int
+        By kind of modification, how many things were asked of it.
+    curves, computed : frozenset of int
+        Curves with another recipe, and crossings computed from another curve.
+    """
+
+    values: int = 0
+    fields: dict[type[Modification], int] = attrs.field(factory=dict)
+    curves: frozenset[int] = frozenset()
+    computed: frozenset[int] = frozenset()
+
+
 @attrs.define(eq=False)
 class Pending:
     """What the modifications of a transaction ask for.
@@ -224,6 +244,12 @@ class Pending:
         """Give the modification of a kind; None if nothing of it is asked for."""
         # Each stands under its own kind.
         return cast("M | None", self.modifications.get(kind))
+
+    def extent(self) -> Extent:
+        """Tell how much is pending."""
+        fields = {kind: each.asked_for for kind, each in self.modifications.items()}
+        curves = frozenset(self.curves.union(self.fresh))
+        return Extent(len(self.values), fields, curves, frozenset(self.computed))
 
     def copied(self) -> Pending:
         """Give a copy that has collections of its own; the modifications in it are the same."""

@@ -14,11 +14,10 @@ from typing import Self
 import attrs
 import numpy as np
 
-from assoc_hull.edit.asked_words import asked_words
-from assoc_hull.edit.dirty_seeds import Extent, dirty_nodes
+from assoc_hull.edit.dirty_seeds import dirty_nodes
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.garbage_collection import PausedCollector
-from assoc_hull.edit.modification import Pending
+from assoc_hull.edit.modification import Extent, Pending
 from assoc_hull.edit.outcome import joined_step
 from assoc_hull.edit.recording import Said, Script, Settings, VariedValues
 from assoc_hull.edit.report import EditReport, Led
@@ -129,7 +128,7 @@ class Transaction:
     def note(self, change: dict[str, Said]) -> None:
         """Keep a modification that was asked for, as data."""
         self.script.append(change)
-        self._extents.append(Extent.of(asked_words(change), self.pending))
+        self._extents.append(self.pending.extent())
 
     def dirty(self) -> DirtyNodes:
         """Give what has been reached by what was asked for so far."""
@@ -137,7 +136,9 @@ class Transaction:
         if self._dirty is None or self._dirty[0] != at or not self.script:
             bodies = [each.step.body for each in self._stages]
             done = np.unique(np.concatenate([_NO_NODES, *(each.changed for each in bodies)]))
-            found = dirty_nodes(self.document, self.pending, self._extents, done, self.name)
+            found = dirty_nodes(
+                self.document, self.pending, self.script, self._extents, done, self.name
+            )
             self._dirty = at, found
         return self._dirty[1]
 
