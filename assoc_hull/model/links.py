@@ -13,6 +13,7 @@ from assoc_hull.model.tables import HullState
 
 __all__ = [
     "PointsOnCurve",
+    "crossing_ways",
     "defines",
     "free_axes",
     "generates",
@@ -32,6 +33,16 @@ def generates(state: HullState, line_a: int, line_b: int) -> tuple[bool, bool]:
         if [link.b, link.a] == names:
             return link.two_way, True
     return False, False
+
+
+def crossing_ways(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell of crossings (k,) whether a generates points on b, and b on a, (k, 2)."""
+    lines = state.curves.line[state.rows.curve[rows]]
+    known: dict[tuple[int, int], tuple[bool, bool]] = {}
+    for a, b in {(int(one), int(two)) for one, two in lines}:
+        known[a, b] = generates(state, a, b)
+    found = [known[int(a), int(b)] for a, b in lines]
+    return np.array(found, np.bool_).reshape(-1, 2)
 
 
 _PARALLEL = 1e-9

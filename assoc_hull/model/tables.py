@@ -234,7 +234,9 @@ class Rows(Table):
     the line b is always made through the crossing. ``override``: the role by the designer's word.
     ``gap`` and ``limit`` are of watched crossings. An adopted point rides from ``base`` with the
     points ``anchor``, which lay at ``anchor_from`` then; the second one counts ``anchor_weight``.
-    ``faired``: how far fairing has taken a point from the value that was given for it.
+    ``faired``: how far fairing has taken a point from the value that was given for it. A crossing
+    that an association was switched at has the role of before as ``first_role``; ``stands_for`` of
+    a stand-in is the key of its crossing, which may be dead.
     """
 
     key: KeyColumn = keys()
@@ -261,7 +263,9 @@ class Rows(Table):
     base: VectorColumn[np.float64] = vectors(np.float64, 3, sparse=True)
     faired: VectorColumn[np.float64] = vectors(np.float64, 3, sparse=True)
     state: NumberColumn[np.int8] = numbers(np.int8)
+    first_role: NumberColumn[np.int8] = numbers(np.int8, -1, sparse=True)
     label: LabelColumn = labels()
+    stands_for: LabelColumn = labels()
 
 
 @attrs.frozen(eq=False)

@@ -29,6 +29,7 @@ __all__ = [
     "latent_intersections",
     "make_crossing",
     "make_latent",
+    "may_define",
     "one_place",
     "rejoin_crossings",
     "role_by_rule",
@@ -246,6 +247,12 @@ def role_by_rule(state: HullState, row: int) -> Role:
         shared = both_ways and _may_define(state, a, lines[1], places[0], row)
         return Role.SHARED if shared else Role.DRIVES_B
     return _role(state, (a, b), lines, (places[0], places[1]), row)
+
+
+def may_define(state: HullState, curve: int, partner: int, row: int, side: int) -> bool:
+    """Tell whether the role rule lets a crossing define a curve, a stand-in there counted as it."""
+    at = closest_points(state.spline(curve), 0, _spot(state, row, side)[None])[0]
+    return _may_define(state, curve, partner, float(at[0]), row)
 
 
 def _may_define(state: HullState, curve: int, partner: int, at: float, row: int = -1) -> bool:

@@ -6,12 +6,16 @@ import numpy as np
 
 from assoc_hull.arguments import flag, word
 from assoc_hull.edit.lines.plane_intersections import intersect_groups, remove_planes
-from assoc_hull.edit.lines.remove_line import replace_crossings
-from assoc_hull.edit.modifications.roles import change_role
+from assoc_hull.edit.modifications.switch_crossings import (
+    leave_stand_ins,
+    switch_crossings,
+    take_up_stand_ins,
+)
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.kinds import FAMILIES, Sort
+from assoc_hull.model.links import crossing_ways
 from assoc_hull.model.tables import Association, HullState
 
 __all__ = ["associate", "dissociate"]
@@ -37,14 +41,24 @@ def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> Non
     _check_pair(edit, word(a, "group"), word(b, "group"))
     flag(two_way, "two_way", "in associate")
     known = any({link.a, link.b} == {a, b} for link in state.associations)
-    edit.maker.associate(Association(a, b, two_way))
+    before = crossing_ways(state, _crossings(state, a, b)) if known else None
+    edit.maker.associate(_declared(state, a, b, two_way=two_way))
     edit.pending.structural = True
     if not known:
-        intersect_groups(edit, a, b)
-    if two_way:
-        return
-    for row in _crossings(state, a, b).tolist():
-        _turn(edit, row, a)
+        take_up_stand_ins(edit, intersect_groups(edit, a, b))
+    rows = _crossings(state, a, b)
+    ways = crossing_ways(state, rows)
+    changed = ~ways.all(axis=1) if before is None else (ways != before).any(axis=1)
+    switch_crossings(edit, rows[changed], ways[changed])
+
+
+def _declared(state: HullState, a: str, b: str, *, two_way: bool) -> Association:
+    """Give the association; one that runs both ways is told from the lower rank to the higher."""
+    names = state.groups.name.data
+    ranks = [FAMILIES[state.groups.family[names.index(name)]].rank for name in (a, b)]
+    if two_way and ranks[0] > ranks[1]:
+        a, b = b, a
+    return Association(a, b, two_way)
 
 
 def _check_pair(edit: Transaction, a: str, b: str) -> None:
@@ -59,23 +73,6 @@ def _check_pair(edit: Transaction, a: str, b: str) -> None:
                 "in an association of a hull that has lines",
                 "declare it when the hull is made, and leave it",
             )
-
-
-def _turn(edit: Transaction, row: int, giver: str) -> None:
-    """Let a crossing define the curve of the other group only."""
-    state = edit.state
-    names = [_group(state, curve) for curve in state.rows.curve[row].tolist()]
-    taker = 1 - names.index(giver)
-    role = Role(int(state.rows.role[row]))
-    defines = {
-        Role.SHARED: (True, True),
-        Role.DRIVES_A: (True, False),
-        Role.DRIVES_B: (False, True),
-    }
-    if not defines.get(role, (False, False))[taker]:
-        change_role(edit, row, Role.WATCHED)
-        return
-    change_role(edit, row, Role.DRIVES_B if taker else Role.DRIVES_A)
 
 
 def _group(state: HullState, curve: int) -> str:
@@ -110,8 +107,7 @@ def dissociate(edit: Transaction, a: str, b: str) -> None:
         )
     edit.pending.structural = True
     rows = _crossings(state, a, b)
-    replace_crossings(edit, rows, np.zeros(0, np.int64))
-    edit.maker.remove_rows(rows)
+    leave_stand_ins(edit, rows)
     edit.journal.set(state.settings.associations, [0], [left])
     for group, other in ((a, b), (b, a)):
         _remove_planes(edit, group, other)

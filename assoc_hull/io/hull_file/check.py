@@ -57,10 +57,13 @@ def _faults(state: HullState) -> Iterator[str]:
         found = _live(state, table, column)
         if not np.isin(found, list(codes)).all():
             yield f"a {column} of the {table} means nothing"
-    if not np.isin(_live(state, "rows", "override"), [-1, *Role]).all():
-        yield "an override means nothing"
+    for column, said in (("override", "an override"), ("first_role", "a first role")):
+        if not np.isin(_live(state, "rows", column), [-1, *Role]).all():
+            yield f"{said} means nothing"
     alone = _live(state, "rows", "sort") != Sort.CROSSING
-    for column, nothing in (("override", -1), ("contact", 0), ("sign", 0)):
+    for column, nothing in (
+        ("override", -1), ("first_role", -1), ("contact", 0), ("sign", 0),
+    ):  # fmt: skip
         if (_live(state, "rows", column)[alone] != nothing).any():
             yield f"a point that is no crossing has the {column} of one"
     if not np.isin(_live(state, "lines", "boundary"), [-1, *BoundaryKind]).all():
@@ -114,7 +117,8 @@ def _texts(state: HullState) -> Iterator[str]:
             yield f"a key of the {table} is no text"
         elif len(set(keys)) < len(keys):
             yield f"a key of the {table} stands there twice"
-    for texts in (state.lines.name.data, state.lines.note.data, state.rows.label.data):
+    for texts in (state.lines.name.data, state.lines.note.data, state.rows.label.data,
+                  state.rows.stands_for.data):  # fmt: skip
         if not _names(texts):
             yield "a name is no text"
     if not all(state.lines.name[line] for line in state.live("lines").tolist()):

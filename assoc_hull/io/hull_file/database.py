@@ -60,7 +60,7 @@ AGAIN = (
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
 
-SCHEMA = 8
+SCHEMA = 9
 
 TABLES = """
 CREATE TABLE hull (
@@ -103,7 +103,7 @@ CREATE TABLE points (
     birth INTEGER NOT NULL, state INTEGER NOT NULL, revision INTEGER NOT NULL,
     anchor_a INTEGER NOT NULL, anchor_b INTEGER NOT NULL, xyz BLOB NOT NULL,
     direction BLOB, gap_limit BLOB, gap BLOB, base BLOB, anchor_from BLOB, anchor_weight BLOB,
-    faired BLOB
+    faired BLOB, first_role INTEGER NOT NULL DEFAULT -1, stands_for TEXT NOT NULL DEFAULT ''
 );
 CREATE TABLE features (
     number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, key TEXT NOT NULL, kind TEXT NOT NULL,
@@ -198,9 +198,16 @@ def _add_faired(database: sqlite3.Connection) -> None:
     database.execute("ALTER TABLE points ADD COLUMN faired BLOB")
 
 
+def _add_switches(database: sqlite3.Connection) -> None:
+    """From 8 to 9: what switched associations left; those of older hulls never were."""
+    database.execute("ALTER TABLE points ADD COLUMN first_role INTEGER NOT NULL DEFAULT -1")
+    database.execute("ALTER TABLE points ADD COLUMN stands_for TEXT NOT NULL DEFAULT ''")
+
+
 MIGRATIONS: Mapping[int, Migration] = {
     1: _add_label_authors, 2: _add_gone, 3: _add_deck, 4: _add_features,
     5: _add_definitions, 6: _add_base, 7: _add_faired,
+    8: _add_switches,
 }  # fmt: skip
 """By version: what brings a file of it to the next one."""
 
@@ -211,6 +218,7 @@ _GREW = (
     ("hull", 4, ",deck TEXT NOT NULL DEFAULT 'open'"),
     ("hull", 7, ",base INTEGER NOT NULL DEFAULT 0"),
     ("points", 8, ",faired BLOB"),
+    ("points", 9, ",first_role INTEGER NOT NULL DEFAULT -1,stands_for TEXT NOT NULL DEFAULT ''"),
 )
 """Versions in which tables came, and in which they got columns, without white space."""
 

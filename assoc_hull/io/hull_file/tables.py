@@ -360,6 +360,7 @@ def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     pairs = {name: getattr(table, name).take(numbers).astype(int).tolist() for name in _PAIRS}
     reals = {name: _blobs(getattr(table, name), numbers) for name in _REALS}
     xyz = [_real_blob(each) for each in table.xyz[numbers]]
+    first = table.first_role[numbers].astype(int).tolist()
     key = table.key.data.for_looks(len(numbers))
     for place, i in enumerate(numbers.tolist()):
         yield (
@@ -368,7 +369,7 @@ def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
             *pairs["curve"][place], *pairs["kind"][place], *pairs["reader"][place],
             *(whole[name][place] for name in ("driver", "contact", "sign", "birth", "state")),
             revision.get(i, 0), *pairs["anchor"][place], xyz[place],
-            *(reals[name][place] for name in _REALS),
+            *(reals[name][place] for name in _REALS), first[place], table.stands_for[i],
         )  # fmt: skip
 
 
@@ -477,7 +478,7 @@ def _read_lines(state: HullState, rows: Sequence[Row]) -> None:
 def _read_points(state: HullState, rows: Sequence[Row]) -> None:
     table = state.rows
     table.resize(len(rows))
-    found = _columns(rows, 29)
+    found = _columns(rows, 31)
     table.key.data[:], table.label.data[:] = found[1], found[2]
     for name, place in zip(("alive", "sort", "role", "override"), range(3, 7), strict=True):
         _put_whole(getattr(table, name), found[place])
@@ -491,6 +492,8 @@ def _read_points(state: HullState, rows: Sequence[Row]) -> None:
     _put_reals(table.xyz, found[21])
     for name, place in zip(_REALS, range(22, 29), strict=True):
         _put_reals(getattr(table, name), found[place])
+    _put_whole(table.first_role, found[29])
+    table.stands_for.data[:] = found[30]
 
 
 def _read_curves(state: HullState, rows: Sequence[Row]) -> None:

@@ -276,9 +276,9 @@ def put_points(
         kind=[_codes(point.get("kinds", ()), PointKind, 2) for point in points],
         direction=[_pair(point.get("directions", ())) for point in points],
         curve=[_numbers(keys, "curves", point["curves"], point["key"]) for point in points],
-        override=[
-            roles.index(point["override"]) if "override" in point else -1 for point in points
-        ],
+        override=[_role_code(point, "override", roles) for point in points],
+        first_role=[_role_code(point, "first_role", roles) for point in points],
+        stands_for=[point.get("stands_for", "") for point in points],
         contact=[point.get("contact", False) for point in points],
         sign=[point.get("sign", 0) for point in points],
         birth=[point.get("birth", 0) for point in points],
@@ -299,8 +299,9 @@ def put_points(
     _put_riding(state, journal, points, keys)
 
 
-def _override(point: Record, roles: list[str]) -> int:
-    return roles.index(point["override"]) if "override" in point else -1
+def _role_code(point: Record, name: str, roles: list[str]) -> int:
+    """Give the code of a role that a point may have, else -1."""
+    return roles.index(point[name]) if name in point else -1
 
 
 def _check_point(point: Record, *, made: bool = False) -> None:
@@ -327,9 +328,11 @@ def _check_point(point: Record, *, made: bool = False) -> None:
     for name, needed in wanted.items():
         if needed != (name in point):
             raise contradiction(f"{name!r} is {'missing' if needed else 'out of place'}", where)
-    for name in ("contact", "sign", "override"):
+    for name in ("contact", "sign", "override", "first_role"):
         if name in point and not crossing:
             raise contradiction(f"{name!r} is out of place at a {point['sort']} point", where)
+    if "stands_for" in point and crossing:
+        raise contradiction("a crossing stands in for none", where)
     if "riding" in point and point["sort"] != "adopted":
         raise contradiction(f"a {point['sort']} point cannot ride", where)
 

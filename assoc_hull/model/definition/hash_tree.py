@@ -272,6 +272,11 @@ class HashTree:
             table.state[rows], riding, met.sign[turn],
         ]  # fmt: skip
         reals = [table.direction[rows], np.where(watched, table.limit[rows], 0.0)]
+        first, stands_for = table.first_role[rows], table.stands_for.data
+        if (first >= 0).any():
+            numbers.append(first)
+        if stood := [stands_for[row] for row in rows.tolist() if stands_for[row]]:
+            texts.append(stood)
         if curve >= 0:
             ends = curves.ends[curve]
             texts.append([curves.key[curve], bool(curves.alive[curve])])

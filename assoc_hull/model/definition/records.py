@@ -327,6 +327,10 @@ def _point_records(state: HullState, order: CanonicalOrder) -> Iterator[Record]:
             record["state"] = _STATES[row["state"]]
         if any(row.get("faired", ())):
             record["faired"] = row["faired"]
+        if row.get("first_role", -1) >= 0:
+            record["first_role"] = _ROLES[row["first_role"]]
+        if row.get("stands_for"):
+            record["stands_for"] = row["stands_for"]
         yield record
 
 

@@ -109,6 +109,10 @@ _POINT = record(
         "value": _VECTOR,
         "state": _STATE,
         "faired": described(_VECTOR, "how far fairing has taken it from its given value, m"),
+        "first_role": described(
+            one_of(code_words(Role)), "of a crossing before its association was switched"
+        ),
+        "stands_for": described(NAME, "key of the crossing whose place a stand-in holds"),
     },
 )
 
