@@ -55,9 +55,8 @@ def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> Non
 def _declared(state: HullState, a: str, b: str, *, two_way: bool) -> Association:
     """Give the association; one that runs both ways is told from the lower rank to the higher."""
     names = state.groups.name.data
-    ranks = [FAMILIES[state.groups.family[names.index(name)]].rank for name in (a, b)]
-    if two_way and ranks[0] > ranks[1]:
-        a, b = b, a
+    if two_way and {a, b} <= set(names):
+        a, b = sorted((a, b), key=lambda name: FAMILIES[state.groups.family[names.index(name)]].rank)
     return Association(a, b, two_way)
 
 
