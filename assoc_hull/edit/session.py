@@ -676,6 +676,53 @@ class Edit:
         _associate.associate(self._transaction, first, second, two_way=two_way)
 
     @recorded
+    def rule(
+        self, a: Group | Line | str, b: Group | Line | str,
+        where: Sequence[tuple[Group | Line | str | None, Mapping[str, tuple[float | None, float | None]]]],
+    ) -> None:  # fmt: skip
+        """Say which of two groups or lines rules where; no curve moves by a bit.
+
+        Where one rules, its lines generate points on those of the other and take none from them.
+        What is said takes the place of what was said of the two before; an empty list takes it
+        back, and `associate` and `dissociate` of their groups do.
+
+        Parameters
+        ----------
+        a, b : Group, Line or str
+            The two; their groups are associated.
+        where : sequence of (Group, Line, str or None, mapping)
+            Who rules, `a` or `b` or None for both, and in which box: bounds by ``"x"``, ``"y"`` and
+            ``"z"`` as (from, to), m, None for no bound. A crossing belongs to the first box that
+            holds it, on a border to the lower one; in no box it follows the association.
+
+        Raises
+        ------
+        BadInputError
+            Two that do not meet, somebody else who rules, or bounds that are none.
+        UnknownNameError
+            No such group or line.
+        RingError
+            When the edit ends, if lines would drive one another in a ring.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("waterlines rule the stern") as edit:
+        ...     edit.rule("waterlines", "sections", [("waterlines", {"x": (None, 40.0)})])
+        >>> hull.crossings["WL 2.5 x ST 7"].role, hull.crossings["WL 2.5 x ST 12"].role
+        ('drives a', 'shared')
+        """
+        given = self._given
+        first, second = given.group_or_line(a), given.group_or_line(b)
+        if isinstance(where, (str, Mapping)) or not isinstance(where, Sequence):
+            what = f"where is {shown(where)}"
+            raise WrongTypeError(what, "in rule", "give a list of (who rules, box)")
+        rulings = given.rulings(first, second, where)
+        with self._transaction.whole() as held:
+            _associate.rule(held, first, second, rulings)
+
+    @recorded
     def dissociate(self, a: Group | str, b: Group | str) -> None:
         """Take an association back."""
         _associate.dissociate(self._transaction, self._given.group(a), self._given.group(b))

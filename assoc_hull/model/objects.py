@@ -36,6 +36,7 @@ from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
 from assoc_hull.model.links import (
     defines,
     free_axes,
+    crossing_ways,
     generates_on,
     latent_curves,
     point_positions,
@@ -451,6 +452,9 @@ class Curve(Handle):
         there = tables.rows.curve.data[on.row, 1 - on.side]
         line = tables.curves.line.data[there]
         met = (there >= 0) & np.isin(tables.lines.group.data[line], reach)
+        if tables.rulings:
+            met = there >= 0
+            met[met] = crossing_ways(tables, on.row[met])[np.arange(met.sum()), on.side[met]]
         actual = _handles(tables, on.row[met], 1 - on.side[met])
         latent = latent_curves(tables, row).tolist()
         return GeneratedPoints(actual, tuple(_curve(tables, curve) for curve in latent))

@@ -46,6 +46,7 @@ __all__ = [
     "DECKS",
     "TABLES",
     "Association",
+    "Corner",
     "CurveIntersections",
     "Curves",
     "Ends",
@@ -59,6 +60,7 @@ __all__ = [
     "Particulars",
     "Produced",
     "Rows",
+    "Ruling",
     "copy_into",
     "copy_state",
     "state_of",
@@ -143,6 +145,33 @@ class Association:
     a: str = attrs.field(validator=checked(word, "in an association"))
     b: str = attrs.field(validator=checked(word, "in an association"))
     two_way: bool = attrs.field(default=True, validator=checked(flag, "in an association"))
+
+
+Corner = tuple[float | None, float | None, float | None]
+
+
+@attrs.frozen
+class Ruling:
+    """Within a box, lines of `a` generate points on those of `b`, and back if `two_way`.
+
+    A crossing follows the first ruling that holds it, else the association of its groups. Of two
+    boxes that share a border the lower one holds what lies on it.
+
+    Attributes
+    ----------
+    a, b : str
+        Names of groups, or keys of lines.
+    two_way : bool
+        Whether `b` generates on `a` as well.
+    low, high : tuple of three float or None, m
+        Corners of the box; None where it has no bound.
+    """
+
+    a: str = attrs.field(validator=checked(word, "in a ruling"))
+    b: str = attrs.field(validator=checked(word, "in a ruling"))
+    two_way: bool = attrs.field(default=True, validator=checked(flag, "in a ruling"))
+    low: Corner = (None, None, None)
+    high: Corner = (None, None, None)
 
 
 def _end_kinds(_: object, __: object, value: object) -> None:
@@ -337,6 +366,7 @@ class HullSettings(Table):
     """What belongs to the hull as a whole; one row."""
 
     associations: ValueColumn[tuple[Association, ...]] = values(())
+    rulings: ValueColumn[tuple[Ruling, ...]] = values(())
     births: ValueColumn[Births] = values_given()
     failed: ValueColumn[tuple[int, ...]] = values(())
     particulars: ValueColumn[Particulars] = values_given()
@@ -509,6 +539,11 @@ class HullState:
     def associations(self) -> tuple[Association, ...]:
         """The declared associations."""
         return self.settings.associations[0]
+
+    @property
+    def rulings(self) -> tuple[Ruling, ...]:
+        """Which lines rule where, the statement that was made last first."""
+        return self.settings.rulings[0]
 
     @property
     def features(self) -> tuple[Feature, ...]:

@@ -46,6 +46,10 @@ def remove_line(edit: Transaction, line: int) -> None:
     remove_line_plane(edit, line)
     edit.journal.put(state.curves.alive, mine, False)
     edit.journal.put(state.lines.alive, [line], False)
+    key = state.lines.key[line]
+    kept = tuple(each for each in state.rulings if key not in (each.a, each.b))
+    if kept != state.rulings:
+        edit.journal.set(state.settings.rulings, [0], [kept])
     edit.pending.curves -= set(mine.tolist())
 
 

@@ -22,6 +22,7 @@ from assoc_hull.edit.crossings.settle_crossings import make_latent, may_define
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.address import address
+from assoc_hull.model.gaps import gap_at
 from assoc_hull.model.keys import crossing_key
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.make_objects import Maker
@@ -229,8 +230,10 @@ class _Switch:
             self.edit.pending.computed.add(row)
         limit = 2.0 * state.tolerances.adoption if new is Role.WATCHED else np.nan
         journal.put(table.limit, [row], limit)
-        if new is not Role.WATCHED:
-            journal.put(table.gap, [row], np.nan)
+        gap = gap_at(state, np.array([row])) if new is Role.WATCHED else np.nan
+        journal.put(table.gap, [row], gap)
+        if new is Role.WATCHED:  # it is published where it lies on a
+            journal.put(table.xyz, [row], table.spot[row, :1])
 
     def _swap(self, curve: int, old: int, new: int) -> None:
         """Let a curve be made through another point that lies where one of its points does."""

@@ -165,6 +165,10 @@ def _settings(state: HullState) -> Iterator[str]:
     for link in state.associations:
         if not {link.a, link.b} <= groups:
             yield f"{link.a!r} and {link.b!r} are associated, and are no groups"
+    keys = groups | {state.lines.key[line] for line in state.live("lines").tolist()}
+    for each in state.rulings:
+        if not {each.a, each.b} <= keys or len(each.low) != 3 or len(each.high) != 3:
+            yield f"{each.a!r} and {each.b!r} rule by a box, and are no groups or lines"
     if not all(count > 0 for count in state.births.values()):
         yield "a pair of lines bore no crossing"
     if not set(state.failed) <= set(state.live("curves").tolist()):

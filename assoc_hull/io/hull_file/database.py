@@ -122,6 +122,10 @@ CREATE TABLE generated (
 CREATE TABLE associations (
     a TEXT NOT NULL, b TEXT NOT NULL, two_way INTEGER NOT NULL, PRIMARY KEY (a, b)
 );
+CREATE TABLE rulings (
+    place INTEGER PRIMARY KEY, a TEXT NOT NULL, b TEXT NOT NULL, two_way INTEGER NOT NULL,
+    box TEXT NOT NULL
+);
 CREATE TABLE births (
     a TEXT NOT NULL, b TEXT NOT NULL, count INTEGER NOT NULL, PRIMARY KEY (a, b)
 ) WITHOUT ROWID;
@@ -202,6 +206,10 @@ def _add_switches(database: sqlite3.Connection) -> None:
     """From 8 to 9: what switched associations left; those of older hulls never were."""
     database.execute("ALTER TABLE points ADD COLUMN first_role INTEGER NOT NULL DEFAULT -1")
     database.execute("ALTER TABLE points ADD COLUMN stands_for TEXT NOT NULL DEFAULT ''")
+    database.execute(
+        "CREATE TABLE rulings (place INTEGER PRIMARY KEY, a TEXT NOT NULL, b TEXT NOT NULL, "
+        "two_way INTEGER NOT NULL, box TEXT NOT NULL)"
+    )
 
 
 MIGRATIONS: Mapping[int, Migration] = {
@@ -212,7 +220,7 @@ MIGRATIONS: Mapping[int, Migration] = {
 """By version: what brings a file of it to the next one."""
 
 
-_CAME = {"gone": 3, "features": 5, "definitions": 6, "generated": 6}
+_CAME = {"gone": 3, "features": 5, "definitions": 6, "generated": 6, "rulings": 9}
 _GREW = (
     ("labels", 2, ",author TEXT NOT NULL DEFAULT '',time TEXT NOT NULL DEFAULT ''"),
     ("hull", 4, ",deck TEXT NOT NULL DEFAULT 'open'"),

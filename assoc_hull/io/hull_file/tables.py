@@ -30,7 +30,7 @@ from assoc_hull.model.change import (
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.kinds import State
-from assoc_hull.model.tables import Association, Ends, HullState, Particulars
+from assoc_hull.model.tables import Association, Ends, HullState, Particulars, Ruling
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -268,7 +268,7 @@ def write_state(
 
 
 def write_settings(database: sqlite3.Connection, state: HullState) -> None:
-    """Write particulars, failures and associations."""
+    """Write particulars, failures, associations and rulings."""
     ship = state.particulars
     database.execute(
         "UPDATE hull SET name = ?, length = ?, breadth = ?, depth = ?, draught = ?, deck = ?, "
@@ -279,6 +279,12 @@ def write_settings(database: sqlite3.Connection, state: HullState) -> None:
     database.execute("DELETE FROM associations")
     links = [(link.a, link.b, int(link.two_way)) for link in state.associations]
     database.executemany("INSERT INTO associations VALUES (?, ?, ?)", links)
+    database.execute("DELETE FROM rulings")
+    ruled = [
+        (place, each.a, each.b, int(each.two_way), json.dumps([each.low, each.high]))
+        for place, each in enumerate(state.rulings)
+    ]
+    database.executemany("INSERT INTO rulings VALUES (?, ?, ?, ?, ?)", ruled)
 
 
 def write_births(database: sqlite3.Connection, counts: Mapping[Pair, int]) -> None:
@@ -406,6 +412,11 @@ def read_state(database: sqlite3.Connection) -> HullState:
     state = HullState(Particulars(*said[:6]), Tolerances(**parse_json(said[6])))
     links = read_rows(database, "SELECT a, b, two_way FROM associations ORDER BY a, b")
     state.settings.associations.data[0] = tuple(Association(a, b, bool(w)) for a, b, w in links)
+    ruled = read_rows(database, "SELECT a, b, two_way, box FROM rulings ORDER BY place")
+    state.settings.rulings.data[0] = tuple(
+        Ruling(a, b, bool(way), *(tuple(corner) for corner in parse_json(box)))
+        for a, b, way, box in ruled
+    )
     births = read_rows(database, "SELECT a, b, count FROM births ORDER BY a, b")
     state.settings.births.data[0] = Births.of({(a, b): int(count) for a, b, count in births})
     state.settings.failed.data[0] = tuple(parse_json(said[7]))

@@ -155,6 +155,8 @@ def tell_losses(state: HullState, book: ExportBook) -> None:
         book.leave_out("definitions", "the hull", what, formed)
     if notes:
         book.leave_out("notes", "the lines", f"{len(notes)} notes on lines", len(notes))
+    if count := len(state.rulings):
+        book.leave_out("rulings", "the associations", f"{count} rulings by regions", count)
     live = state.live("rows")
     for column, word, none in (
         (state.rows.label, "labels of points", ""), (state.rows.override, "roles by hand", -1),

@@ -38,6 +38,7 @@ from assoc_hull.model.tables import (
     Lines,
     Particulars,
     Rows,
+    Ruling,
 )
 from assoc_hull.tolerance import Tolerances
 
@@ -585,6 +586,7 @@ def make_tables(definition: Record) -> HullState:
     put_defining(state, journal, parts[1], keys)
     _check_births(state)
     put_meetings(state, journal, parts[1], keys.find)
+    _put_rulings(state, journal, definition.get("rulings", ()), keys)
     put_features(state, journal, definition.get("features", ()), keys)
     put_forms(state, journal, definition, keys)
     _retire(state, journal, gone)
@@ -622,6 +624,22 @@ def _put_groups(
         raise contradiction("a pair of lines stands there twice", "in the births")
     journal.set(state.settings.associations, [0], [tuple(links)])
     journal.set(state.settings.births, [0], [Births.of(births)])
+
+
+def _put_rulings(
+    state: HullState, journal: Journal, rulings: Sequence[Record], keys: Keys
+) -> None:
+    names = set(state.groups.name.data)
+    for each in rulings:
+        for name in (each["a"], each["b"]):
+            if name not in names:
+                keys.find("lines", name, "a ruling")
+    if rulings:
+        found = tuple(
+            Ruling(**{**each, "low": tuple(each["low"]), "high": tuple(each["high"])})
+            for each in rulings
+        )
+        journal.set(state.settings.rulings, [0], [found])
 
 
 def _put_lines(state: HullState, journal: Journal, lines: list[Record], keys: Keys) -> None:

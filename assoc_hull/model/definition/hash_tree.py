@@ -36,6 +36,7 @@ from assoc_hull.model.definition.records import (
     definition_records,
     generated_records,
     plain_fields,
+    ruling_records,
 )
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import CurveIntersections, HullState
@@ -323,6 +324,7 @@ class HashTree:
             words, list(association_records(state)), list(birth_records(state)),
             retired_keys(state), list(definition_records(state)), list(generated_records(state)),
             [_named(self.state.groups.name.data, group) for group in self._groups],
+            *([ruling_records(state)] if state.rulings else ()),
         ]  # fmt: skip
         return _hash(told, np.array(reals, np.float64))
 

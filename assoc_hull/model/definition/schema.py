@@ -139,6 +139,20 @@ _FEATURE = record(
 )
 
 
+_CORNER = described(
+    tuple_of(or_none(REAL), or_none(REAL), or_none(REAL)), "of a box, m; null where it has no bound"
+)
+_RULING = record(
+    {
+        "a": described(NAME, "name of a group, or key of a line"),
+        "b": described(NAME, "likewise"),
+        "two_way": TRUTH,
+        "low": _CORNER,
+        "high": _CORNER,
+    }
+)
+
+
 _FORM = record(
     {
         "use": described(NAME, "what is taken from it; each use stands once"),
@@ -204,6 +218,7 @@ DEFINITION = record(
         "features": described(
             list_of(_FEATURE), "circles, arcs, flats and so on; none if not told"
         ),
+        "rulings": described(list_of(_RULING), "which lines rule where; none if not told"),
         "definitions": described(list_of(_FORM), "curves of form parameters; none if not told"),
         "generated": described(list_of(_MADE), "curves that come from these; none if not told"),
     },
