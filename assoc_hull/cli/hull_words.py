@@ -24,7 +24,7 @@ from assoc_hull.io.reports import OffsetReport
 from assoc_hull.io.slicing.net import SliceReport
 from assoc_hull.io.slicing.smooth_lines import SmoothReport
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.kinds import Sort
+from assoc_hull.model.kinds import OWN, Sort
 from assoc_hull.model.objects import Curve
 
 __all__ = [
@@ -143,6 +143,7 @@ def hull_facts(hull: Hull) -> dict[str, Any]:
     """Give what a hull holds; lengths in m."""
     groups = {
         name: {"family": group.family, "lines": list(group.lines)}
+        | ({"members": [each.name for each in group.members]} if group.family == OWN else {})
         for name, group in hull.groups.items()
     }
     return {

@@ -17,6 +17,8 @@ from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.plane import AXES
 from assoc_hull.model.address import ResolvedAddress, resolve_address
+from assoc_hull.model.kinds import OWN
+from assoc_hull.model.links import live_group, named_lines
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point, is_in, numbers_of
 from assoc_hull.model.tables import Corner, HullState, Ruling
 
@@ -132,13 +134,16 @@ class GivenObjects:
 
     def group(self, group: Group | str) -> str:
         """Take the name of a group; lines are associated by their groups only."""
-        if isinstance(group, str) and group in self.tables.groups.name.data:
-            return group
         try:
             place = self.place(group)
         except UnknownNameError:
             return str(group)  # the edit names the groups there are in its own error
         name = str(self.tables.groups.name[place.group])
+        if place.line < 0 and self.tables.groups.family[place.group] == OWN:
+            raise BadInputError(
+                f"{name!r} is a group of one's own", "in an edit",
+                "name the group of a family; edit.rule says where own groups rule",
+            )  # fmt: skip
         if place.line >= 0:
             raise BadInputError(
                 f"{shown_name(getattr(group, 'name', group))!r} lies in the group {name!r}",
@@ -149,7 +154,7 @@ class GivenObjects:
 
     def group_or_line(self, thing: Group | Line | str) -> str:
         """Take the name of a group, or the key of a line."""
-        if isinstance(thing, str) and thing in self.tables.groups.name.data:
+        if isinstance(thing, str) and live_group(self.tables, thing) is not None:
             return thing
         if not isinstance(thing, str | Group | Line):
             raise WrongTypeError(f"the lines are {shown(thing)}", "in an edit", _HANDLE)
@@ -160,6 +165,19 @@ class GivenObjects:
         if found.line >= 0:
             return str(self.tables.lines.key[found.line])
         return str(self.tables.groups.name[found.group])
+
+    def members(self, lines: Sequence[Group | Line | str], where: str) -> tuple[str, ...]:
+        """Take what a group is to hold: keys of lines and names of groups, each once."""
+        if isinstance(lines, str | Group | Line) or not isinstance(lines, Sequence):
+            remedy = "give a list of lines and groups"
+            raise WrongTypeError(f"the lines are {shown(lines)}", where, remedy)
+        found = [self.group_or_line(each) for each in lines]
+        if not found:
+            raise BadInputError("the group would hold nothing", where, "name lines or groups")
+        for each in found:
+            if found.count(each) > 1:
+                raise BadInputError(f"{each!r} is named twice", where, "name it once")
+        return tuple(found)
 
     def rulings(self, a: str, b: str, where: Sequence[object]) -> list[Ruling]:
         """Take who rules in which boxes: pairs of a name or None, and of bounds by axis."""
@@ -180,7 +198,7 @@ class GivenObjects:
     def group_named(self, name: object) -> str | None:
         """Give the group that a name means, however it is written; None if it means none."""
         names = self.tables.groups.name.data
-        if not isinstance(name, str) or name in names:
+        if not isinstance(name, str) or live_group(self.tables, name) is not None:
             return name if isinstance(name, str) else None
         try:
             found = resolve_address(self.tables, name)
@@ -258,8 +276,7 @@ class GivenObjects:
                 raise ForeignPointError(repr(each))
             name = each.name if isinstance(each, Group) else self.group_named(each)
             if isinstance(each, Group) or name is not None:
-                live = tables.live("lines")
-                found += live[tables.lines.group[live] == names.index(str(name))].tolist()
+                found += [i for i in named_lines(tables, str(name)).tolist() if i not in found]
             else:
                 found.append(self.line(each))
         return found

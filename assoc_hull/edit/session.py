@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal, Self
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import all_of, choice, flag, number, places, positive, shown
-from assoc_hull.edit.arguments import GivenObjects
+from assoc_hull.edit.arguments import GivenObjects, line_name
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.lines import add_line as _cut
 from assoc_hull.edit.lines import knuckle_lines as _knuckles
@@ -26,6 +26,7 @@ from assoc_hull.edit.modifications import curve_ends as _ends
 from assoc_hull.edit.modifications import definitions as _reattach
 from assoc_hull.edit.modifications import definitions as _set_form
 from assoc_hull.edit.modifications import draw_runs as _draw
+from assoc_hull.edit.modifications import groups as _groups
 from assoc_hull.edit.modifications import lead as _lead
 from assoc_hull.edit.modifications import names as _rename
 from assoc_hull.edit.modifications import points as _points
@@ -723,6 +724,71 @@ class Edit:
             _associate.rule(held, first, second, rulings)
 
     @recorded
+    def group(self, name: str, lines: Sequence[Group | Line | str]) -> Group:
+        """Make a group of one's own of lines and groups, for instance ``"stern lines"``.
+
+        It may be named wherever lines are: in `rule`, as drivers, in `fair`, in pictures.
+
+        Parameters
+        ----------
+        name : str
+            What it is called.
+        lines : sequence of Group, Line or str
+            What it holds. A line may be in several groups; one that is removed leaves them.
+
+        Raises
+        ------
+        NameTakenError
+            A group, a line or a point has the name.
+        BadInputError
+            A name that is empty or could be read as an address; nothing in it, or one thing twice.
+        UnknownNameError
+            No such line or group.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("groups") as edit:
+        ...     _ = edit.group("stern lines", ["ST 1", "ST 2", "WL 2.5"])
+        ...     _ = edit.group("all of it", ["stern lines", "buttocks"])
+        >>> [each.name for each in hull.groups["stern lines"].members]
+        ['ST 1', 'ST 2', 'WL 2.5']
+        >>> hull.groups["stern lines"].container
+        <Group all of it>
+        """
+        title = line_name(name)
+        members = self._given.members(lines, "in group")
+        return Group.of(self._tables, _groups.group(self._transaction, title, members))
+
+    @recorded
+    def regroup(self, group: Group | str, lines: Sequence[Group | Line | str]) -> None:
+        """Let a group of one's own hold other lines and groups.
+
+        Raises
+        ------
+        BadInputError
+            The group of a family, or one that would hold itself, with the path.
+        UnknownNameError
+            No such group or line.
+        """
+        members = self._given.members(lines, "in regroup")
+        _groups.regroup(self._transaction, self._given.group_or_line(group), members)
+
+    @recorded
+    def ungroup(self, group: Group | str) -> None:
+        """Take a group of one's own away; its lines stay.
+
+        Raises
+        ------
+        BadInputError
+            The group of a family, or one that a ruling names.
+        UnknownNameError
+            No such group.
+        """
+        _groups.ungroup(self._transaction, self._given.group_or_line(group))
+
+    @recorded
     def dissociate(self, a: Group | str, b: Group | str) -> None:
         """Take an association back."""
         _associate.dissociate(self._transaction, self._given.group(a), self._given.group(b))
@@ -787,7 +853,8 @@ class Edit:
         how many degrees it falls outward from the horizontal.
         """
         if isinstance(group, str):
-            title = self._given.group_named(group) or group
+            found = self._given.group_named(group)
+            title = group if found is None else self._given.group(found)
         else:
             title = self._given.group(group)
         line = _cut.add_line(self._transaction, title, position, name)

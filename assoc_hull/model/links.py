@@ -20,7 +20,9 @@ __all__ = [
     "free_axes",
     "generates",
     "generates_on",
+    "holders",
     "latent_curves",
+    "live_group",
     "named_lines",
     "point_positions",
     "points_on",
@@ -61,12 +63,35 @@ def crossing_ways(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool
 
 
 def named_lines(state: HullState, name: str) -> IntArray:
-    """Give the lines (k,) of a group, by its name, or one line, by its key."""
-    live = state.live("lines")
-    if name in state.groups.name.data:
-        mine: IntArray = live[state.lines.group[live] == state.groups.name.data.index(name)]
-        return mine
-    return np.array([line for line in live.tolist() if state.lines.key[line] == name], np.int64)
+    """Give the lines (k,) of a group, by its name, or one line, by its key; ascending."""
+    live, table = state.live("lines"), state.groups
+    keys = {state.lines.key[line]: line for line in live.tolist()}
+    found, names, seen = set[int](), [name], set[str]()
+    while names:
+        each = names.pop()
+        if each in keys:
+            found.add(keys[each])
+            continue
+        group = live_group(state, each)
+        if group is None or each in seen:
+            continue
+        seen.add(each)
+        names += table.members[group]
+        found |= set(live[state.lines.group[live] == group].tolist())
+    return np.array(sorted(found), np.int64)
+
+
+def live_group(state: HullState, name: str) -> int | None:
+    """Give the number of a group; None if there is none of the name."""
+    live = state.live("groups").tolist()
+    return next((group for group in live if state.groups.name[group] == name), None)
+
+
+def holders(state: HullState, name: str) -> IntArray:
+    """Give a designer's own groups that hold a line, by its key, or a group, by its name."""
+    live = state.live("groups").tolist()
+    mine = [group for group in live if name in state.groups.members[group]]
+    return np.array(sorted(mine, key=lambda group: str(state.groups.name[group])), np.int64)
 
 
 def _rule(

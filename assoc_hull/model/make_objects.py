@@ -22,7 +22,7 @@ from assoc_hull.model.births import Pair
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.keys import crossing_key
-from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.kinds import OWN, Role, Sort
 from assoc_hull.model.tables import Association, Ends, Featured, Formed, HullState, Produced
 
 __all__ = ["CrossingSpec", "Maker", "PointSpec"]
@@ -105,6 +105,12 @@ class Maker:
         self.journal.set(self.state.groups.name, [number], [name])
         self.journal.set(self.state.groups.family, [number], [family])
         self.journal.put(self.state.groups.alive, [number], [True])
+        return number
+
+    def own_group(self, name: str, members: tuple[str, ...]) -> int:
+        """Add a group of a designer's own, of lines by key and groups by name."""
+        number = self.group(name, OWN)
+        self.journal.set(self.state.groups.members, [number], [members])
         return number
 
     def associate(self, link: Association) -> None:

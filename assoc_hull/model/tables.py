@@ -330,11 +330,12 @@ class Lines(Table):
 
 @attrs.frozen(eq=False)
 class Groups(Table):
-    """Groups of lines."""
+    """Groups of lines; ``members`` of a designer's own are keys of lines and names of groups."""
 
     name: ValueColumn[str] = values("")
     family: ValueColumn[str] = values("")
     alive: NumberColumn[np.bool_] = numbers(np.bool_)
+    members: ValueColumn[tuple[str, ...]] = values(())
 
 
 @attrs.frozen(eq=False)

@@ -249,9 +249,7 @@ def _undeclared(state: HullState, book: AddressBook) -> Iterator[Finding]:
             declared[pair] = generates(state, *lines)
         # A crossing that slides out of a box keeps its role.
         both = state.rulings and any(declared[pair])
-        text = _against(
-            (True, True) if both else declared[pair], Role(int(state.rows.role[row]))
-        )
+        text = _against((True, True) if both else declared[pair], Role(int(state.rows.role[row])))
         if text and (declared[pair] == (False, False) or state.rows.override[row] < 0):
             yield row_finding(state, book, row, "association", text)
 

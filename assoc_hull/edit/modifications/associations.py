@@ -69,7 +69,12 @@ def rule(edit: Transaction, a: str, b: str, where: Sequence[Ruling]) -> None:
         When the edit ends, if driven links would run in a ring.
     """
     state = edit.state
-    rows = _crossings_of(state, named_lines(state, a), named_lines(state, b))
+    lines = [named_lines(state, name) for name in (a, b)]
+    both = np.intersect1d(*lines)
+    if a != b and len(both):
+        what = f"{state.lines.name[int(both[0])]} is of both, {a!r} and {b!r}"
+        raise BadInputError(what, "in rule", "name two that share no line")
+    rows = _crossings_of(state, *lines)
     rows = rows[~state.rows.contact[rows]]
     if a == b or not len(rows):
         what = f"{a!r} with itself" if a == b else f"{a!r} and {b!r} have no crossing"
@@ -103,7 +108,9 @@ def _declared(state: HullState, a: str, b: str, *, two_way: bool) -> Association
     """Give the association; one that runs both ways is told from the lower rank to the higher."""
     names = state.groups.name.data
     if two_way and {a, b} <= set(names):
-        a, b = sorted((a, b), key=lambda name: FAMILIES[state.groups.family[names.index(name)]].rank)
+        a, b = sorted(
+            (a, b), key=lambda name: FAMILIES[state.groups.family[names.index(name)]].rank
+        )
     return Association(a, b, two_way)
 
 

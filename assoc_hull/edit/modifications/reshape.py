@@ -40,9 +40,9 @@ from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.links import generates
 from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.make_objects import PointSpec
-from assoc_hull.model.links import generates
 from assoc_hull.model.tables import HullState
 
 __all__ = [
@@ -184,9 +184,7 @@ class ReshapeField:
         return np.where(inside, change, 0.0)
 
 
-def _define_givers(
-    state: HullState, rows: IntArray, curve: int
-) -> np.typing.NDArray[np.bool_]:
+def _define_givers(state: HullState, rows: IntArray, curve: int) -> np.typing.NDArray[np.bool_]:
     """Tell which points define a line that generates on a curve there and takes nothing from it."""
     line, places = state.line_of(curve), state.rows.xyz[rows]
     found, known = np.zeros(len(rows), np.bool_), dict[int, bool]()

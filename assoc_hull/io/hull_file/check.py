@@ -21,7 +21,7 @@ from assoc_hull.edit.document import Document, Label
 from assoc_hull.edit.step import Step
 from assoc_hull.geometry.curves import IntArray, PointKind
 from assoc_hull.model.form_definition import GENERATED
-from assoc_hull.model.kinds import FAMILIES, BoundaryKind, Role, Sort, State
+from assoc_hull.model.kinds import FAMILIES, OWN, BoundaryKind, Role, Sort, State
 from assoc_hull.model.tables import HullState
 
 __all__ = ["require_sound_tables", "require_whole_history"]
@@ -123,7 +123,7 @@ def _texts(state: HullState) -> Iterator[str]:
             yield "a name is no text"
     if not all(state.lines.name[line] for line in state.live("lines").tolist()):
         yield "a line has no name"
-    if not set(state.groups.family.data) <= set(FAMILIES):
+    if not set(state.groups.family.data) <= {*FAMILIES, OWN}:
         yield "a family does not exist"
 
 
@@ -166,6 +166,9 @@ def _settings(state: HullState) -> Iterator[str]:
         if not {link.a, link.b} <= groups:
             yield f"{link.a!r} and {link.b!r} are associated, and are no groups"
     keys = groups | {state.lines.key[line] for line in state.live("lines").tolist()}
+    for group in state.live("groups").tolist():
+        if not set(state.groups.members[group]) <= keys:
+            yield f"the group {state.groups.name[group]!r} holds what is not there"
     for each in state.rulings:
         if not {each.a, each.b} <= keys or len(each.low) != 3 or len(each.high) != 3:
             yield f"{each.a!r} and {each.b!r} rule by a box, and are no groups or lines"

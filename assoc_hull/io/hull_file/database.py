@@ -82,7 +82,8 @@ CREATE TABLE hull (
     base INTEGER NOT NULL DEFAULT 0
 );
 CREATE TABLE groups (
-    number INTEGER PRIMARY KEY, name TEXT NOT NULL, family TEXT NOT NULL, alive INTEGER NOT NULL
+    number INTEGER PRIMARY KEY, name TEXT NOT NULL, family TEXT NOT NULL, alive INTEGER NOT NULL,
+    members TEXT NOT NULL DEFAULT '[]'
 );
 CREATE TABLE lines (
     number INTEGER PRIMARY KEY, key TEXT NOT NULL, name TEXT NOT NULL, alive INTEGER NOT NULL,
@@ -203,9 +204,10 @@ def _add_faired(database: sqlite3.Connection) -> None:
 
 
 def _add_switches(database: sqlite3.Connection) -> None:
-    """From 8 to 9: what switched associations left; those of older hulls never were."""
+    """From 8 to 9: what switched associations left, and groups of one's own; none in older ones."""
     database.execute("ALTER TABLE points ADD COLUMN first_role INTEGER NOT NULL DEFAULT -1")
     database.execute("ALTER TABLE points ADD COLUMN stands_for TEXT NOT NULL DEFAULT ''")
+    database.execute("ALTER TABLE groups ADD COLUMN members TEXT NOT NULL DEFAULT '[]'")
     database.execute(
         "CREATE TABLE rulings (place INTEGER PRIMARY KEY, a TEXT NOT NULL, b TEXT NOT NULL, "
         "two_way INTEGER NOT NULL, box TEXT NOT NULL)"
@@ -226,6 +228,7 @@ _GREW = (
     ("hull", 4, ",deck TEXT NOT NULL DEFAULT 'open'"),
     ("hull", 7, ",base INTEGER NOT NULL DEFAULT 0"),
     ("points", 8, ",faired BLOB"),
+    ("groups", 9, ",members TEXT NOT NULL DEFAULT '[]'"),
     ("points", 9, ",first_role INTEGER NOT NULL DEFAULT -1,stands_for TEXT NOT NULL DEFAULT ''"),
 )
 """Versions in which tables came, and in which they got columns, without white space."""

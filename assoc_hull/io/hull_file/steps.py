@@ -331,6 +331,7 @@ _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
     "curves.side": (_numbers, _frozen),
     "curves.ends": (lambda ends: [_numbers(ends.kind), ends.vector], _ends_of),
     "lines.curves": (_numbers, tuple),
+    "groups.members": (list, tuple),
     "settings.failed": (_numbers, tuple),
     "featured.feature": (_plain, _feature),
     "formed.definition": (_plain_form, _form),

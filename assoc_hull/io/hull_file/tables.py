@@ -319,7 +319,7 @@ def _write_gone(
 def _group_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     table = state.groups
     for i in numbers.tolist():
-        yield i, table.name[i], table.family[i], int(table.alive[i])
+        yield i, table.name[i], table.family[i], int(table.alive[i]), json.dumps(table.members[i])
 
 
 def _line_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
@@ -465,9 +465,10 @@ def _put_reals(column: Any, blobs: Sequence[bytes | None]) -> None:
 
 
 def _read_groups(state: HullState, rows: Sequence[Row]) -> None:
-    _, name, family, alive = _columns(rows, 4)
+    _, name, family, alive, members = _columns(rows, 5)
     state.groups.resize(len(rows))
     state.groups.name.data[:], state.groups.family.data[:] = name, family
+    state.groups.members.data[:] = [tuple(parse_json(each)) for each in members]
     _put_whole(state.groups.alive, alive)
 
 

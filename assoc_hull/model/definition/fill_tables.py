@@ -26,7 +26,7 @@ from assoc_hull.model.definition.records import code_words
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import GENERATED, FormDefinition, GeneratedCurve
 from assoc_hull.model.index import build_index
-from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
+from assoc_hull.model.kinds import OWN, BoundaryKind, Role, Sort, State
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.tables import (
     Association,
@@ -611,7 +611,14 @@ def _put_groups(
     state: HullState, journal: Journal, groups: list[Record], definition: Record, keys: Keys
 ) -> None:
     names, families = [each["name"] for each in groups], [each["family"] for each in groups]
-    add_rows(state.groups, journal, len(groups), name=names, family=families)
+    members = [tuple(each.get("members", ())) for each in groups]
+    for name, family, mine in zip(names, families, members, strict=True):
+        if mine and family != OWN:
+            raise contradiction(f"the group {name!r} of a family has members", "in the groups")
+        for member in mine:
+            if member not in names:
+                keys.find("lines", member, f"the group {name!r}")
+    add_rows(state.groups, journal, len(groups), name=names, family=families, members=members)
     links = [Association(**link) for link in definition["associations"]]
     for link in links:
         for name in (link.a, link.b):
@@ -626,9 +633,7 @@ def _put_groups(
     journal.set(state.settings.births, [0], [Births.of(births)])
 
 
-def _put_rulings(
-    state: HullState, journal: Journal, rulings: Sequence[Record], keys: Keys
-) -> None:
+def _put_rulings(state: HullState, journal: Journal, rulings: Sequence[Record], keys: Keys) -> None:
     names = set(state.groups.name.data)
     for each in rulings:
         for name in (each["a"], each["b"]):

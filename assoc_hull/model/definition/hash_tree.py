@@ -312,7 +312,8 @@ class HashTree:
         below = [_named(keys, line) for line in self._lines[group]]
         if group < 0:
             return _hash([below])
-        return _hash([table.name[group], table.family[group], bool(table.alive[group]), below])
+        told = [table.name[group], table.family[group], bool(table.alive[group]), below]
+        return _hash([*told, *([table.members[group]] if table.members[group] else ())])
 
     def _rest_part(self) -> bytes:
         """Hash what hangs below no line: particulars, associations, births, definitions."""

@@ -148,6 +148,7 @@ def definition(state: HullState) -> dict[str, object]:
         "tolerances": plain_fields(state.tolerances),
         "groups": [
             {"name": state.groups.name[i], "family": state.groups.family[i]}
+            | ({"members": list(state.groups.members[i])} if state.groups.members[i] else {})
             for i in order.groups.tolist()
         ],
         "associations": association_records(state),

@@ -23,7 +23,7 @@ from assoc_hull.geometry.curves import EndKind, PointKind
 from assoc_hull.model.definition.records import code_words
 from assoc_hull.model.features import FEATURE_KINDS
 from assoc_hull.model.form_definition import FORM_KINDS, GENERATED, RULES
-from assoc_hull.model.kinds import FAMILIES, BoundaryKind, Role, Sort, State
+from assoc_hull.model.kinds import FAMILIES, OWN, BoundaryKind, Role, Sort, State
 from assoc_hull.model.tables import DECKS, Particulars
 from assoc_hull.model.value_schema import (
     COUNT,
@@ -197,7 +197,12 @@ DEFINITION = record(
             record(_fields(Particulars, POSITIVE, ("deck",)), {"deck": _DECK}), "m"
         ),
         "tolerances": described(record(_fields(Tolerances, NOT_NEGATIVE)), "m, parts and degrees"),
-        "groups": list_of(record({"name": NAME, "family": one_of(tuple(FAMILIES))})),
+        "groups": list_of(
+            record(
+                {"name": NAME, "family": one_of((*FAMILIES, OWN))},
+                {"members": described(list_of(NAME), "keys of lines and names of groups")},
+            )
+        ),
         "associations": described(
             list_of(record({"a": TEXT, "b": TEXT, "two_way": TRUTH})),
             "lines of group a generate points on those of b, and back if two_way",
