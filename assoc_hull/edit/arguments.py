@@ -270,7 +270,6 @@ class GivenObjects:
                 f"drivers is {shown(drivers)}", "in transform", "give a list of names"
             )
         tables, found = self.tables, list[int]()
-        names = tables.groups.name.data
         for each in drivers:
             if isinstance(each, Group) and each.home is not tables.live_tables:
                 raise ForeignPointError(repr(each))

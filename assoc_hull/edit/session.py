@@ -65,6 +65,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Edit", "join_edit", "open_edit", "refusal_of"]
 
+Bounds = tuple[float | None, float | None]
+"""From where to where along an axis, m; None for no bound."""
+
 _USE = "use it in a with statement"
 _HANDLE = "give a handle or an address"
 
@@ -679,7 +682,7 @@ class Edit:
     @recorded
     def rule(
         self, a: Group | Line | str, b: Group | Line | str,
-        where: Sequence[tuple[Group | Line | str | None, Mapping[str, tuple[float | None, float | None]]]],
+        where: Sequence[tuple[Group | Line | str | None, Mapping[str, Bounds]]],
     ) -> None:  # fmt: skip
         """Say which of two groups or lines rules where; no curve moves by a bit.
 

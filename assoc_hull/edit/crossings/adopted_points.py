@@ -70,7 +70,7 @@ def insert_defining_point(maker: Maker, curve: int, row: int) -> None:
 # Riding. An adopted point holds a shape that crossings alone cannot. Its place is its base plus a
 # linear blend of the displacements of its nearest driven neighbours since they were last linked;
 # so there and back is exact. A generated point does not ride, and none that was one: definitions
-# place it, or a designer did. Nor does what stands in for a crossing: it holds its curve as that did.
+# place it, or a designer did. Nor does what stands in for a crossing.
 
 
 def link_adopted_points(state: HullState, curves: IntArray, journal: Journal) -> None:

@@ -155,11 +155,11 @@ class _Switch:
         curves = table.curve[row].tolist()
         for side, curve in enumerate(curves):
             point = self.stand_ins.get((str(table.key[row]), curve))
-            if _DEFINES[Role(first)][side] and point is not None:
-                if table.sort[point] == Sort.PLACED:
-                    # It is the designer's now, and stays; so does what it stood in for.
-                    self.held.append(row)
-                    return
+            held = point is not None and table.sort[point] == Sort.PLACED
+            if held and _DEFINES[Role(first)][side]:
+                # It is the designer's now, and stays; so does what it stood in for.
+                self.held.append(row)
+                return
         self.edit.journal.put(table.first_role, [row], -1)
         self.assign(row, Role(first))
 
