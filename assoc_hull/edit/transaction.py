@@ -320,10 +320,7 @@ class Transaction:
                 reason = "an edit nested in it failed, so all of it was taken back"
                 raise RefusedEditError(self.name, (reason,))
             if self._idle() and not self._stages:
-                self._told = EditReport(
-                    self.name, changed=False, notes=(*self.pending.notes, _IDLE)
-                )
-                self._restore()
+                self._tell_idle()
             else:
                 self._publish()
         except BaseException:
@@ -337,6 +334,12 @@ class Transaction:
                 self.look(self._step)
             finally:
                 self._restore()
+
+    def _tell_idle(self) -> None:
+        """End without a step, and say that nothing was changed."""
+        notes = (*self.notes, *self.pending.notes, _IDLE)
+        self._told = EditReport(self.name, changed=False, notes=notes)
+        self._restore()
 
     def _idle(self) -> bool:
         """Tell whether all that was asked for is so already: then there is nothing to undo."""
@@ -353,6 +356,9 @@ class Transaction:
         answer, self.pending.answer = self.pending.answer, None
         if answer is not None:
             answer.carry_out()
+            if self._idle() and not self._stages:
+                self._tell_idle()
+                return
         if self._stages:
             self.end_stage()
             stages = [each.step for each in self._stages]
