@@ -39,7 +39,14 @@ from drawings.net import crossing, levels, roles
 from drawings.production import production_arcs_picture
 from drawings.sections import generated_sections
 from drawings.shifts import section_shifts
-from drawings.stern import bulk_carrier, carrier_combs, counter, stern_faired, stern_heat
+from drawings.stern import (
+    bulk_carrier,
+    carrier_combs,
+    counter,
+    led_buttocks,
+    stern_faired,
+    stern_heat,
+)
 from drawings.story import bossing_lines, bossing_profile
 from drawings.variant import variant_areas, variant_plan
 from drawings.variation import rounded_hat, variation_fields
@@ -179,6 +186,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "completions": completions,
     "bulk_carrier": bulk_carrier,
     "counter": counter,
+    "led_buttocks": led_buttocks,
     "stern_heat": stern_heat,
     "stern_faired": stern_faired,
     "carrier_combs": carrier_combs,

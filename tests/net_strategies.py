@@ -1,7 +1,7 @@
 """Small nets kept ready, and random edits of every kind, for the properties of the update.
 
-A net takes half a second to adopt and milliseconds to read, so each is adopted once per
-process and read anew for every example.
+A net takes half a second to adopt, so each is adopted once per process; every example gets a twin
+of what was read.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.objects import Curve, Line, Point
 from tests.strategies import Form, Net, net_of, wigley_sources
+from tests.twins import packed, twin
 
 __all__ = [
     "POOL",
@@ -144,13 +145,15 @@ def loose(net: Net, tolerance: float) -> Net:
 
 
 @lru_cache
-def _text(number: int) -> str:
-    return dumps_hull_json(_net(_SEEDS[number]).adopt())
+def _pack(number: int) -> bytes:
+    text = dumps_hull_json(_net(_SEEDS[number]).adopt())
+    return packed(ah.Hull(read_hull_json(text)))
 
 
 def fresh(number: int) -> ah.Hull:
     """Give a hull of its own with the net of a number."""
-    return ah.Hull(read_hull_json(_text(number)))
+    found: ah.Hull = twin(_pack(number))
+    return found
 
 
 def hulls() -> SearchStrategy[ah.Hull]:

@@ -14,6 +14,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError, GeometryError, WrongTypeError
 from assoc_hull.geometry.classical.arc_fit import ArcFit, fit_arcs
 from assoc_hull.geometry.classical.checked_input import digits
@@ -120,7 +121,7 @@ class ArcLine:
 
 
 @attrs.frozen(eq=False)
-class ArcLines:
+class ArcLines(ShownAsText):
     """Lines of a hull as arcs.
 
     Attributes

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from assoc_hull.arguments import once
+from assoc_hull.cli.command_table import COMMANDS
 from assoc_hull.cli.problems import UsageError
 from assoc_hull.errors import BadInputError
 
@@ -59,11 +60,11 @@ PICTURE_ENDINGS = (".pdf", ".svg", ".png")
 def add_command(
     commands: Commands,
     name: str,
-    about: str,
     run: Callable[[argparse.Namespace], int],
     examples: str,
 ) -> argparse.ArgumentParser:
-    """Add a command: one sentence about it, examples that can be copied, and what runs it."""
+    """Add a command of the table: what runs it, and examples that can be copied."""
+    about = COMMANDS[name].about
     lines = "".join(f"\n  {line.strip()}" for line in examples.strip().splitlines())
     parser = commands.add_parser(
         name,

@@ -212,7 +212,7 @@ _BUTTOCK, _FOLLOWER = 2, "WL 0.42"
 def add_demo(commands: Commands) -> None:
     """Add ``demo``."""
     parser = add_command(
-        commands, "demo", "do the main job on a shipped hull, with pictures", _demo,
+        commands, "demo", _demo,
         "assoc-hull demo --out demo",
     )  # fmt: skip
     parser.add_argument(

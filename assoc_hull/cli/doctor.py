@@ -23,8 +23,7 @@ _ENDINGS = (".csv", ".tsv", ".txt")
 def add_doctor(commands: Commands) -> None:
     """Add ``doctor``."""
     parser = add_command(
-        commands, "doctor",
-        "look for slips of the hand in a table of offsets, or for wrong points of a hull", _doctor,
+        commands, "doctor", _doctor,
         """assoc-hull doctor offsets.csv
         assoc-hull doctor offsets.csv --top 20 --json
         assoc-hull doctor offsets.csv --mend mended.csv

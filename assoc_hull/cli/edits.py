@@ -39,6 +39,7 @@ from assoc_hull.cli.problems import (
     check_target,
     is_apart,
 )
+from assoc_hull.cli.typed_edits import is_operation, typed_edit, unknown_edit
 from assoc_hull.edit.explain.causes import Why
 from assoc_hull.edit.explain.compare_states import state_at
 from assoc_hull.edit.explain.preview import LineChange, Preview
@@ -218,9 +219,11 @@ Changes = Sequence[Mapping[str, Any]]
 def add_edit(commands: Commands) -> None:
     """Add ``edit``."""
     parser = add_command(
-        commands, "edit", "carry out edits and let the hull follow; exit 1 if they are refused",
+        commands, "edit",
         _edit,
-        """assoc-hull edit ship.hull edits.json --why "BTK 0.44"
+        """assoc-hull edit ship.hull pull "WL 0.5 x ST 16" 20mm radius=20,8
+        assoc-hull edit ship.hull move "WL 0.5 x ST 16" y=6.79 --dry-run
+        assoc-hull edit ship.hull edits.json --why "BTK 0.44"
         assoc-hull edit ship.hull edits.json -o fairer.hull
         assoc-hull edit ship.hull edits.json --dry-run --json
 
@@ -229,7 +232,16 @@ def add_edit(commands: Commands) -> None:
         (lengths in m; all modifications are one edit)""",
     )  # fmt: skip
     add_hull(parser)
-    parser.add_argument("edits", metavar="EDITS.json", type=Path, help="a list of modifications")
+    parser.add_argument(
+        "edits", metavar="EDITS", type=Path,
+        help="a .json file with a list of modifications, or one of them: move, insert, delete, "
+        "pull, reshape, lead, fair, straighten, round, spread, ... with its VALUES",
+    )  # fmt: skip
+    parser.add_argument(
+        "values", metavar="VALUE", nargs="*",
+        help="in the order of the arguments, or NAME=VALUE: a length (20mm, .02), a place (x,y,z), "
+        "several (x,y,z;x,y,z), a name",
+    )  # fmt: skip
     parser.add_argument(
         "-o", "--out", metavar="OUT", type=Path, help="where to write the hull (default: HULL)"
     )
@@ -249,8 +261,15 @@ def add_edit(commands: Commands) -> None:
 
 
 def _edit(arguments: argparse.Namespace) -> int:
-    changes = _read(arguments.edits)
-    name = arguments.name or arguments.edits.stem
+    typed = str(arguments.edits)
+    if is_operation(typed) and not arguments.edits.exists():
+        changes: Changes = [typed_edit(typed, arguments.values)]
+        name = arguments.name or " ".join([typed, *arguments.values[:1]])
+    elif arguments.values or not (arguments.edits.suffix or arguments.edits.exists()):
+        raise unknown_edit(typed)
+    else:
+        changes = _read(arguments.edits)
+        name = arguments.name or arguments.edits.stem
     try:
         if arguments.dry_run:
             return _try(arguments, name, changes)
@@ -386,16 +405,16 @@ def _read(path: Path) -> Changes:
 
 def add_history(commands: Commands) -> None:
     """Add ``undo``, ``redo``, ``history``, ``checkpoint``, ``go`` and ``diff``."""
-    for name, about in (("undo", "take back the last edits"), ("redo", "make them again")):
+    for name in ("undo", "redo"):
         turn = add_command(
-            commands, name, about, _turn,
+            commands, name, _turn,
             f"assoc-hull {name} ship.hull\nassoc-hull {name} ship.hull 3",
         )  # fmt: skip
         _add_common(turn, writes=True)
         turn.add_argument("count", metavar="N", type=int, nargs="?", default=1, help="default: 1")
         turn.set_defaults(act=name)
     history = add_command(
-        commands, "history", "list the edits, checkpoints and branches", _history,
+        commands, "history", _history,
         "assoc-hull history ship.hull\nassoc-hull history ship.hull --step 3 --json",
     )  # fmt: skip
     _add_common(history, writes=False)
@@ -403,19 +422,19 @@ def add_history(commands: Commands) -> None:
         "--step", metavar="N", type=int, help="tell one edit in full: what was asked for, and done"
     )
     check = add_command(
-        commands, "checkpoint", "name the present state", _checkpoint,
+        commands, "checkpoint", _checkpoint,
         'assoc-hull checkpoint ship.hull "before the bulb"',
     )  # fmt: skip
     _add_common(check, writes=True)
     check.add_argument("name", metavar="NAME", help="a name that is free")
     go = add_command(
-        commands, "go", "return to a checkpoint or branch", _go,
+        commands, "go", _go,
         'assoc-hull go ship.hull "before the bulb"',
     )  # fmt: skip
     _add_common(go, writes=True)
     go.add_argument("name", metavar="NAME", help="as `history` lists it")
     diff = add_command(
-        commands, "diff", "tell how two states differ", _diff,
+        commands, "diff", _diff,
         """assoc-hull diff ship.hull "before the bulb"
         assoc-hull diff ship.hull "before the bulb" "branch 1" --json""",
     )  # fmt: skip
@@ -573,7 +592,7 @@ def _diff(arguments: argparse.Namespace) -> int:
 def add_replay(commands: Commands) -> None:
     """Add ``replay``."""
     parser = add_command(
-        commands, "replay", "make the edits of one hull again on another; exit 1 if one fails",
+        commands, "replay",
         _replay,
         """assoc-hull replay ship.hull sister.hull
         assoc-hull replay ship.hull sister.hull.json -o faired.hull --skip""",

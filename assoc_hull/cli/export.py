@@ -258,7 +258,7 @@ _ENDINGS = {
 def add_export(commands: Commands) -> None:
     """Add ``export``."""
     parser = add_command(
-        commands, "export", "write lines, surfaces or meshes for other programs", _export,
+        commands, "export", _export,
         """assoc-hull export ship.hull -o offsets.csv
         assoc-hull export ship.hull -o offsets.xlsx
         assoc-hull export ship.hull -o ship.bri

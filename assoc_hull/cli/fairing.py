@@ -31,7 +31,7 @@ __all__ = ["add_fair"]
 def add_fair(commands: Commands) -> None:
     """Add ``fair``."""
     parser = add_command(
-        commands, "fair", "take noise out of all lines together; exit 1 if it is refused", _fair,
+        commands, "fair", _fair,
         """assoc-hull fair ship.hull --noise 1.6 --dry-run
         assoc-hull fair ship.hull --noise auto --tolerance 3 -o faired.hull
         assoc-hull fair ship.hull "WL 9" buttocks --noise 1.6

@@ -51,7 +51,7 @@ _CALL = "in the call"
 def add_parameters(commands: Commands) -> None:
     """Add ``parameters``."""
     parser = add_command(
-        commands, "parameters", "tell the form parameters of a hull", _parameters,
+        commands, "parameters", _parameters,
         """assoc-hull parameters ship.hull --draught 18
         assoc-hull parameters ship.hull --draughts 18.5 17.5 --only Cb,Cp,LCB --json
         assoc-hull parameters ship.hull --table "hull form" -o form.pdf
@@ -193,7 +193,7 @@ def _entries(arguments: argparse.Namespace) -> list[FormParameter]:
 def add_curve(commands: Commands) -> None:
     """Add ``curve``."""
     parser = add_command(
-        commands, "curve", "make a form-parameter curve; exit 1 if a condition is violated", _curve,
+        commands, "curve", _curve,
         """assoc-hull curve --set start_x=-1 start_y=0 start_angle_deg=60 start_curvature=-2
         finish_x=-0.3 finish_y=1 finish_angle_deg=0 area=0.55 centroid=-0.59
         assoc-hull curve run.json --tangents auto -o run.pdf
@@ -309,7 +309,7 @@ _AREAS = "sectional areas"
 def add_transform(commands: Commands) -> None:
     """Add ``transform``."""
     parser = add_command(
-        commands, "transform", "give a curve as a Chebyshev, sine or Fourier series", _transform,
+        commands, "transform", _transform,
         """assoc-hull transform ship.hull --line "WL 0.5" --terms 12
         assoc-hull transform ship.hull --draught 18 --kind sine --json
         assoc-hull transform ship.hull --line "ST 18" --kind fourier --span 0 18

@@ -11,21 +11,23 @@ import textwrap
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import zip_longest
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import attrs
 
-from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, LineReport
 from assoc_hull.edit.report import SAME_MOVEMENT, EditReport, Movement
 from assoc_hull.hull import Hull
-from assoc_hull.io.importing.import_hull import ImportReport
-from assoc_hull.io.offsets.table import OffsetTable
-from assoc_hull.io.reports import OffsetReport
-from assoc_hull.io.slicing.net import SliceReport
-from assoc_hull.io.slicing.smooth_lines import SmoothReport
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import OWN, Sort
 from assoc_hull.model.objects import Curve
+
+if TYPE_CHECKING:  # most commands read no foreign file
+    from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, LineReport
+    from assoc_hull.io.importing.import_hull import ImportReport
+    from assoc_hull.io.offsets.table import OffsetTable
+    from assoc_hull.io.reports import OffsetReport
+    from assoc_hull.io.slicing.net import SliceReport
+    from assoc_hull.io.slicing.smooth_lines import SmoothReport
 
 __all__ = [
     "adoption_words",

@@ -174,7 +174,7 @@ _PICTURES = ("curves", "areas", "bonjean")
 def add_hydrostatics(commands: Commands) -> None:
     """Add ``hydrostatics``."""
     parser = add_command(
-        commands, "hydrostatics", "tell how a hull floats: volume, centres, stability at rest",
+        commands, "hydrostatics",
         _hydrostatics,
         """assoc-hull hydrostatics ship.hull --draught 18
         assoc-hull hydrostatics ship.hull --draughts 18.5 17.5 --heel 5 --kg 11.2 --json

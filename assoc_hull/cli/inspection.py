@@ -40,7 +40,7 @@ _NOTE = "role"
 def add_inspection(commands: Commands) -> None:
     """Add ``info``, ``check`` and ``verify``."""
     info = add_command(
-        commands, "info", "tell what a hull holds", _info,
+        commands, "info", _info,
         """assoc-hull info ship.hull
         assoc-hull info ship.hull --json
         assoc-hull info --engine --wait""",
@@ -57,13 +57,13 @@ def add_inspection(commands: Commands) -> None:
     )
     add_json(info)
     check = add_command(
-        commands, "check", "tell what is wrong with a hull; exit 1 if anything is", _check,
+        commands, "check", _check,
         """assoc-hull check ship.hull
         assoc-hull check ship.hull --notes --json""",
     )  # fmt: skip
     check.add_argument("--notes", action="store_true", help="tell also what is only worth knowing")
     verify = add_command(
-        commands, "verify", "rebuild a hull from its definition and compare; exit 1 if it differs",
+        commands, "verify",
         _verify, "assoc-hull verify ship.hull\nassoc-hull verify ship.hull --json",
     )  # fmt: skip
     verify.add_argument(
@@ -118,7 +118,7 @@ def _verify(arguments: argparse.Namespace) -> int:
 def add_why(commands: Commands) -> None:
     """Add ``why``."""
     parser = add_command(
-        commands, "why", "tell through what the last edit reached an object", _why,
+        commands, "why", _why,
         """assoc-hull why ship.hull "BTK 0.44"
         assoc-hull why ship.hull "WL 0.5 x ST 16" --tree
         assoc-hull why ship.hull "WL 0.5" --json""",
@@ -155,7 +155,7 @@ def why_words(causes: Mapping[str, Why]) -> list[str]:
 def add_fairness(commands: Commands) -> None:
     """Add ``fairness``."""
     parser = add_command(
-        commands, "fairness", "tell how fair lines are, by five criteria in numbers", _fairness,
+        commands, "fairness", _fairness,
         """assoc-hull fairness ship.hull
         assoc-hull fairness ship.hull "WL 5" "WL 7.5" --allowed 1
         assoc-hull fairness ship.hull --compare faired.hull
@@ -206,7 +206,7 @@ def _fairness(arguments: argparse.Namespace) -> int:
 def add_sensitivities(commands: Commands) -> None:
     """Add ``sensitivities``."""
     parser = add_command(
-        commands, "sensitivities", "tell how outputs change with parameters of a hull", _tell,
+        commands, "sensitivities", _tell,
         """assoc-hull sensitivities ship.hull
         assoc-hull sensitivities ship.hull --of volume lcb Cpa "A ST 5" --by breadth fore_shift
         assoc-hull sensitivities ship.hull --by mean_draught trim --percent
@@ -260,7 +260,7 @@ _ONLY = ("two-way", "one-way", "latent", "changed")
 def add_graph(commands: Commands) -> None:
     """Add ``graph``."""
     parser = add_command(
-        commands, "graph", "write objects and links as a graph", _graph,
+        commands, "graph", _graph,
         """assoc-hull graph ship.hull --format dot --around "WL 0.5 x ST 7" --hops 2
         assoc-hull graph ship.hull --only one-way --around "WL 0.5" --hops 2 --format mermaid
         assoc-hull graph ship.hull --format graphml -o ship.graphml""",
@@ -358,7 +358,7 @@ def _hops(arguments: argparse.Namespace) -> tuple[int, int]:
 def add_plot(commands: Commands) -> None:
     """Add ``plot``."""
     parser = add_command(
-        commands, "plot", "draw lines, their curvature combs, or what an edit moved", _plot,
+        commands, "plot", _plot,
         """assoc-hull plot ship.hull -o lines.pdf --paper A1
         assoc-hull plot ship.hull -o stern.pdf --heat residual --x -5 50
         assoc-hull plot ship.hull -o combs.svg --combs "WL 0.5" "BTK 0.44"

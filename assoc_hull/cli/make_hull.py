@@ -69,7 +69,7 @@ def add_example_and_import(commands: Commands) -> None:
 
 def _add_example(commands: Commands) -> None:
     parser = add_command(
-        commands, "example", "write a hull, or shell plates, that ship with the program", _example,
+        commands, "example", _example,
         """assoc-hull example series60-070 -o ship.hull
         assoc-hull example typical-plates -o plates.csv""",
     )  # fmt: skip
@@ -90,7 +90,7 @@ class _Units(tuple[str, ...]):
 
 def _add_import(commands: Commands) -> None:
     parser = add_command(
-        commands, "import", "make a hull from offsets, a mesh, surfaces or lines", _import,
+        commands, "import", _import,
         """assoc-hull import offsets.csv -o ship.hull
         assoc-hull import ship.hull.json -o ship.hull
         assoc-hull import hull.stl -o ship.hull --scale 59.407 --stations 41
@@ -442,7 +442,7 @@ def _tell(
 def add_create(commands: Commands) -> None:
     """Add ``create``."""
     parser = add_command(
-        commands, "create", "make a hull from a design: definitions by form parameters", _create,
+        commands, "create", _create,
         """assoc-hull create --example > design.json
         assoc-hull create design.json -o ship.hull
         assoc-hull create design.json -o ship.hull --json""",
@@ -502,7 +502,7 @@ def _create_example(arguments: argparse.Namespace) -> int:
 def add_classical(commands: Commands) -> None:
     """Add ``classical``."""
     parser = add_command(
-        commands, "classical", "tell volumes, areas and centroids of a classical definition",
+        commands, "classical",
         _classical,
         """assoc-hull classical --example sfolds > ferry.txt
         assoc-hull classical ferry.txt

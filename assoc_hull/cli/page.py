@@ -15,7 +15,7 @@ __all__ = ["add_page"]
 def add_page(commands: Commands) -> None:
     """Add ``page``."""
     parser = add_command(
-        commands, "page", "fair a hull by hand in the browser, on this machine only", _page,
+        commands, "page", _page,
         """assoc-hull page ship.hull
         assoc-hull page ship.hull --port 8123 --no-browser --stay
         assoc-hull page ship.hull --author anna --json""",

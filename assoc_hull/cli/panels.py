@@ -30,7 +30,7 @@ _FORMS = ("nemoh", "wamit", "hams", "stl", "stl-text")
 def add_panels(commands: Commands) -> None:
     """Add ``panels``."""
     parser = add_command(
-        commands, "panels", "divide the immersed hull into panels for seakeeping codes", _panels,
+        commands, "panels", _panels,
         """assoc-hull panels ship.hull --count 2000 -o ship.gdf
         assoc-hull panels ship.hull --draughts 18.5 17.5 --stations 60 --points 15 -o ship.mar
         assoc-hull panels ship.hull --full --heel 5 --count 3000 -o HullMesh.pnl --json

@@ -179,7 +179,7 @@ _OWN = "own"
 def add_plates(commands: Commands) -> None:
     """Add ``plates``."""
     parser = add_command(
-        commands, "plates", "tell how shell plates are curved, and how they may be formed", _plates,
+        commands, "plates", _plates,
         """assoc-hull plates plates.csv
         assoc-hull plates shell.igs -o plates.json --picture map.png
         assoc-hull plates shell.igs --seams-u 0.25 0.5 0.75 --breadth own -o plates.pdf

@@ -45,7 +45,7 @@ _STATED = {
 def add_resistance(commands: Commands) -> None:
     """Add ``resistance``."""
     parser = add_command(
-        commands, "resistance", "estimate the resistance in calm water by Holtrop's regression",
+        commands, "resistance",
         _resistance,
         """assoc-hull resistance ship.hull --speeds 12 13 14.5
         assoc-hull resistance ship.hull --speeds 12:16:0.5 --c-stern 10 -o resistance.csv

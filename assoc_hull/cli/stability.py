@@ -39,7 +39,7 @@ _CALL = "in the call"
 def add_stability(commands: Commands) -> None:
     """Add ``stability``."""
     parser = add_command(
-        commands, "stability", "tell righting levers, and whether they meet the IMO criteria",
+        commands, "stability",
         _stability,
         """assoc-hull stability ship.hull --kg 11.2
         assoc-hull stability ship.hull --kg 11.2 --weight 150000 --lcg 148 --trim free --json

@@ -33,7 +33,7 @@ _SHOWN = 5
 def add_study(commands: Commands) -> None:
     """Add ``study``."""
     parser = add_command(
-        commands, "study", "make many variants of a hull; exit 1 if none came to be", _study,
+        commands, "study", _study,
         """assoc-hull study ship.hull --set breadth=31:33 --count 50 -o breadths.csv
         assoc-hull study ship.hull --reach volume=51000:53000 --reach lcb=110:112
             --free fore_shift=-4:4 --free aft_shift=-4:4 --count 200 --seed 1 -o variants.csv

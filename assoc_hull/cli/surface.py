@@ -24,7 +24,7 @@ _FAMILIES = ("sections", "waterlines")
 def add_surface(commands: Commands) -> None:
     """Add ``surface``."""
     parser = add_command(
-        commands, "surface", "fit a surface to the lines, and tell how well it fits", _surface,
+        commands, "surface", _surface,
         """assoc-hull surface ship.hull
         assoc-hull surface ship.hull -o ship.step
         assoc-hull surface ship.hull -o ship.igs --unit m --half --json

@@ -106,7 +106,7 @@ def report_refusal(arguments: argparse.Namespace, run: Callable[[], int]) -> int
 def add_vary(commands: Commands) -> None:
     """Add ``vary``."""
     parser = add_command(
-        commands, "vary", "vary a hull by named parameters; exit 1 if it is refused", _vary,
+        commands, "vary", _vary,
         """assoc-hull vary ship.hull --list
         assoc-hull vary ship.hull --set shaft_height=6.0 --set bossing_radius=1.0 -o larger.hull
         assoc-hull vary ship.hull --set breadth=51.5 --stations x --json
@@ -274,8 +274,7 @@ def add_shift_and_swing(commands: Commands) -> None:
 
 def _add_shift(commands: Commands) -> None:
     parser = add_command(
-        commands, "shift", "shift sections along the ship for another block or prismatic "
-        "coefficient and centre of buoyancy; exit 1 if it is refused", _shift,
+        commands, "shift", _shift,
         """assoc-hull shift ship.hull --by cb=0.02 --by lcb_percent=0.5 -o fuller.hull
         assoc-hull shift ship.hull --to cp=0.72 --shape lackenby --json
         assoc-hull shift ship.hull --by Cpf=0.01 --terminals 0 60.96 67.056 121.92
@@ -316,8 +315,7 @@ def _add_shift(commands: Commands) -> None:
 
 def _add_swing(commands: Commands) -> None:
     parser = add_command(
-        commands, "swing", "change breadth against draught, or length against both, at the same "
-        "volume and coefficients; exit 1 if it is refused", _swing,
+        commands, "swing", _swing,
         """assoc-hull swing ship.hull --breadth 18.5 -o broader.hull
         assoc-hull swing ship.hull --length 125 --draught 7 --json""",
     )  # fmt: skip
@@ -334,8 +332,7 @@ def _add_swing(commands: Commands) -> None:
 
 def _add_jumboise(commands: Commands) -> None:
     parser = add_command(
-        commands, "jumboise", "insert or take out a length of parallel body; exit 1 if it is "
-        "refused", _jumboise,
+        commands, "jumboise", _jumboise,
         """assoc-hull jumboise ship.hull 12 -o longer.hull
         assoc-hull jumboise ship.hull 30 --at 150 --names number --json
         assoc-hull jumboise ship.hull -15""",
@@ -429,7 +426,7 @@ def _told(arguments: argparse.Namespace, doing: str, act: Callable[[Hull], Shift
 def add_compare(commands: Commands) -> None:
     """Add ``compare``."""
     parser = add_command(
-        commands, "compare", "tell how a variant differs from its parent", _compare,
+        commands, "compare", _compare,
         """assoc-hull compare parent.hull variant.hull
         assoc-hull compare parent.hull variant.hull --draught 16.5 --lines 50
         assoc-hull compare parent.hull variant.hull --pdf comparison.pdf --json""",

@@ -15,6 +15,7 @@ import numpy as np
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
 from assoc_hull.analysis.hydrostatics.section_areas import between_stations
 from assoc_hull.analysis.net.curve_net import station_planes as stands
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
@@ -87,7 +88,7 @@ class SectionFigures:
 
 
 @attrs.frozen
-class CreationReport:
+class CreationReport(ShownAsText):
     """A hull beside its definitions.
 
     Attributes

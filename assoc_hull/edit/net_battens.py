@@ -9,6 +9,7 @@ flats, knuckles and the profile.
 from __future__ import annotations
 
 import numpy as np
+from scipy.sparse import csr_array, diags_array
 
 from assoc_hull.analysis.fairness.batten_problem import BattenProblem, batten_problem
 from assoc_hull.edit.displacement_field import FieldContext, on_flat, on_profile
@@ -21,6 +22,7 @@ from assoc_hull.model.tables import HullState
 __all__ = [
     "fairable_rows",
     "feature_rows",
+    "mending_ties",
     "net_battens",
     "reasons_to_stay",
     "volume_weights",
@@ -29,6 +31,9 @@ __all__ = [
 
 _FINE = 1e-6
 """By this part of what is given a point on a feature may go along with others."""
+
+_CLOSED = 1e-3
+"""m: so near an adopted point lies to the curve whose gap it closes."""
 
 
 def net_battens(state: HullState, also: IntArray | None = None) -> BattenProblem:
@@ -87,6 +92,56 @@ def feature_rows(state: HullState) -> IntArray:
             if len(on) > 1:
                 found.append(rows[on[0] : on[-1] + 1])
     return np.unique(np.concatenate([np.zeros(0, np.int64), *found]))
+
+
+def mending_ties(state: HullState, problem: BattenProblem) -> tuple[IntArray, csr_array]:
+    """Let adopted points that close the gap of a watched crossing go along with the other curve.
+
+    Moved by themselves they would open the gap again. Gives the places (c,) in the rows of a
+    problem of all other points, and displacements of all (k,) as parts (k, c) of theirs.
+    """
+    rows = problem.rows.tolist()
+    holds = _mending_points(state)
+    chosen = np.array([n for n, row in enumerate(rows) if row not in holds], np.int64)
+    own = csr_array(
+        (np.ones(len(chosen)), (chosen, np.arange(len(chosen)))), (len(rows), len(chosen))
+    )
+    held = [n for n, row in enumerate(rows) if row in holds]
+    if not held:
+        return chosen, own
+    beside, part = (np.array([holds[rows[n]][each] for n in held]) for each in (0, 1))
+    free = csr_array(problem.rates[:, chosen])
+    # What a held point itself would do to its neighbours is left out: two may hold each other.
+    follows = csr_array(
+        diags_array(1.0 - part) @ free[beside[:, 0]] + diags_array(part) @ free[beside[:, 1]]
+    )
+    put = csr_array((np.ones(len(held)), (held, np.arange(len(held)))), (len(rows), len(held)))
+    return chosen, csr_array(own + put @ follows)
+
+
+def _mending_points(state: HullState) -> dict[int, tuple[tuple[int, int], float]]:
+    """Find adopted points that lie where another curve passes that their own one is watched for.
+
+    With each go the points of the other curve before and after it, and its part of the way.
+    """
+    table, found = state.rows, dict[int, tuple[tuple[int, int], float]]()
+    watched = table.alive.data & (table.sort.data == Sort.CROSSING)
+    watched &= table.role.data == Role.WATCHED
+    for row in np.flatnonzero(watched & (table.curve.data >= 0).all(axis=1)).tolist():
+        for side, curve in enumerate(table.curve.data[row].tolist()):
+            other = int(table.curve.data[row, 1 - side])
+            points = state.curves.rows.data[curve]
+            mine = points[table.sort.data[points] == Sort.ADOPTED]
+            step = table.xyz.data[mine] - table.spot.data[row, 1 - side]
+            away = np.sqrt((step * step).sum(axis=1))
+            if not len(mine) or away.min() > _CLOSED * state.tolerances.factor:
+                continue
+            knot, at = state.spline(other).knot, table.parameter.data[row, 1 - side]
+            before = min(max(int(np.searchsorted(knot, at, side="right")) - 1, 0), len(knot) - 2)
+            part = float((at - knot[before]) / (knot[before + 1] - knot[before]))
+            ends = state.curves.rows.data[other][before : before + 2].tolist()
+            found[int(mine[away.argmin()])] = (ends[0], ends[1]), part
+    return found
 
 
 def reasons_to_stay(state: HullState, lines: IntArray | None) -> dict[str, int]:

@@ -6,6 +6,7 @@ from typing import Protocol
 
 import attrs
 
+from assoc_hull.display import ShownAsText
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 
@@ -159,7 +160,7 @@ class Led:
 
 
 @attrs.frozen
-class EditReport:
+class EditReport(ShownAsText):
     """The report of one committed edit.
 
     Attributes

@@ -28,6 +28,7 @@ __all__ = [
     "PolicyName",
     "Replayed",
     "carry_out",
+    "operations",
     "replay",
 ]
 
@@ -69,7 +70,7 @@ def _modify(edit: Edit, change: object, where: str) -> None:
     if not isinstance(change, Mapping) or not all(isinstance(key, str) for key in change):
         raise WrongTypeError(f"it is {shown(change)}", where, 'give {"op": "move", "point": ...}')
     arguments = dict(change)
-    name, known = arguments.pop("op", ""), _operations()
+    name, known = arguments.pop("op", ""), operations()
     if not isinstance(name, str) or name not in known:
         raise UnknownNameError("modification", shown_name(name), tuple(known))
     method, takes = getattr(edit, name), known[name]
@@ -86,7 +87,7 @@ def _modify(edit: Edit, change: object, where: str) -> None:
 
 
 @cache
-def _operations() -> Mapping[str, inspect.Signature]:
+def operations() -> Mapping[str, inspect.Signature]:
     """Give what the public methods of an edit take, by name."""
     found = dict[str, inspect.Signature]()
     for name in sorted(vars(Edit)):

@@ -148,6 +148,11 @@ class Transaction:
         """How many stages have ended."""
         return len(self._stages)
 
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """What each stage that has ended did: the very objects, as long as it stands."""
+        return tuple(each.step for each in self._stages)
+
     def lofted(self, first: int = 0) -> IntArray:
         """Give the curves that stages lofted or made, from one on, ascending, as far as alive."""
         bodies = [each.step.body for each in self._stages[first:]]
@@ -315,10 +320,7 @@ class Transaction:
                 reason = "an edit nested in it failed, so all of it was taken back"
                 raise RefusedEditError(self.name, (reason,))
             if self._idle() and not self._stages:
-                self._told = EditReport(
-                    self.name, changed=False, notes=(*self.pending.notes, _IDLE)
-                )
-                self._restore()
+                self._tell_idle()
             else:
                 self._publish()
         except BaseException:
@@ -332,6 +334,12 @@ class Transaction:
                 self.look(self._step)
             finally:
                 self._restore()
+
+    def _tell_idle(self) -> None:
+        """End without a step, and say that nothing was changed."""
+        notes = (*self.notes, *self.pending.notes, _IDLE)
+        self._told = EditReport(self.name, changed=False, notes=notes)
+        self._restore()
 
     def _idle(self) -> bool:
         """Tell whether all that was asked for is so already: then there is nothing to undo."""
@@ -348,6 +356,9 @@ class Transaction:
         answer, self.pending.answer = self.pending.answer, None
         if answer is not None:
             answer.carry_out()
+            if self._idle() and not self._stages:
+                self._tell_idle()
+                return
         if self._stages:
             self.end_stage()
             stages = [each.step for each in self._stages]

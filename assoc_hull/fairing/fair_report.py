@@ -13,6 +13,7 @@ from assoc_hull.analysis.hydrostatics.flotation import (
     EvenKeelDisplacement,
     even_keel_displacement,
 )
+from assoc_hull.display import ShownAsText
 from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.modifications.fair import BoundPoint, Faired
 from assoc_hull.edit.net_battens import net_battens
@@ -42,7 +43,7 @@ _HEAD = f"{'line':16}{'|r| median mm':>16}{'largest mm':>18}{'inflections':>13}{
 
 
 @attrs.frozen
-class FairLine:
+class FairLine(ShownAsText):
     """A curve before and after fairing.
 
     Attributes
@@ -74,7 +75,7 @@ class FairLine:
 
 
 @attrs.frozen(eq=False, slots=False)
-class FairReport:
+class FairReport(ShownAsText):
     """What fairing did, or would do.
 
     Attributes

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.arguments import positive, shown
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError, GeometryError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.fairness.criteria import FairnessRecord, OffsetDeviations, criteria
@@ -73,7 +74,7 @@ class FairnessPair:
 
 
 @attrs.frozen(eq=False)
-class FairnessTable:
+class FairnessTable(ShownAsText):
     """Records of curves of a net, line by line.
 
     Attributes

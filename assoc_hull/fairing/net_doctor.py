@@ -14,6 +14,7 @@ from scipy.sparse import csc_array
 from scipy.spatial import cKDTree
 
 from assoc_hull.analysis.fairness.batten_problem import BattenProblem
+from assoc_hull.display import ShownAsText
 from assoc_hull.edit.net_battens import net_battens
 from assoc_hull.fairing.offsets_doctor import ALARM
 from assoc_hull.fairing.table_residuals import best_change, robust_scale
@@ -37,7 +38,7 @@ _ALONG_SHIP = 0.25
 
 
 @attrs.frozen
-class PointFinding:
+class PointFinding(ShownAsText):
     """A point that its lines do not bear out.
 
     Attributes
@@ -75,7 +76,7 @@ class PointFinding:
 
 
 @attrs.frozen
-class NetDoctorReport:
+class NetDoctorReport(ShownAsText):
     """What the doctor found in a net; nothing was changed.
 
     Attributes

@@ -14,6 +14,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.display import ShownAsText
 from assoc_hull.fairing.slip_numbers import SLIPS, single_slips
 from assoc_hull.fairing.table_residuals import CellWindows, TableMisfits, TableWindows
 from assoc_hull.fairing.table_rules import (
@@ -112,7 +113,7 @@ class SlipNumber:
 
 
 @attrs.frozen
-class OffsetFinding:
+class OffsetFinding(ShownAsText):
     """A number of a table that its neighbours do not bear out.
 
     Attributes
@@ -168,7 +169,7 @@ class OffsetFinding:
 
 
 @attrs.frozen
-class DoctorReport:
+class DoctorReport(ShownAsText):
     """What the doctor of offsets found; nothing was changed.
 
     Attributes

@@ -29,7 +29,7 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out
 from assoc_hull.edit.session import Edit, join_edit, open_edit
 from assoc_hull.edit.write_lock import PATIENCE
-from assoc_hull.errors import UnknownNameError
+from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import FAMILIES, OWN
 from assoc_hull.model.line_source import LineSource
@@ -137,6 +137,15 @@ class Hull:
     def __repr__(self) -> str:
         ship = self.particulars
         return f"<Hull {ship.name}, {len(self.lines)} lines, {len(self.document.history)} edits>"
+
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
+        # Asked by notebooks, which take from it what they can show.
+        from assoc_hull.hull.notebook import mimebundle_of
+
+        return mimebundle_of(self.state, repr(self))
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self.lines, *self.groups]
 
     @property
     def state(self) -> HullState:
@@ -534,6 +543,8 @@ class Hull:
     def __contains__(self, address: object) -> bool:
         """Whether an address names a line, point, curve or group of the hull."""
         try:
+            if isinstance(address, str) and not address.strip():
+                return False  # nothing is named so
             handle(self.state, text(address, "the address", "in a look-up"))
         except UnknownNameError:
             return False
@@ -2290,6 +2301,7 @@ features
         workers: int | None = None,
         cluster: object = None,
         progress: Callable[[str, int, int], None] | None = None,
+        fair: float | bool = False,
     ) -> Study[Hull]:
         """Make many variants of a hull: certified, lofted again, checked, measured.
 
@@ -2331,6 +2343,8 @@ features
             cores; the address of a scheduler, or a client, uses the workers that it has.
         progress : callable
             Is called with what is done and how fast, how many variants are, and of how many.
+        fair : False
+            A study fairs no followers: vary the rows that matter with ``fair=True``.
 
         Returns
         -------
@@ -2367,6 +2381,11 @@ features
         from assoc_hull.hull.studies import make_study
         from assoc_hull.study.design import OUTPUTS, StudyDesign
 
+        if fair is not False:
+            raise BadInputError(
+                "a study fairs no followers", "in study",
+                "leave fair out, and make what matters by hull.vary(set=..., fair=True)",
+            )  # fmt: skip
         design = StudyDesign.of(
             set=set, reach=reach, free=free, bounds=bounds, layers=layers,
             outputs=OUTPUTS if outputs is None else outputs, layout=layout,

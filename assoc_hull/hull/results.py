@@ -21,6 +21,7 @@ from assoc_hull.arguments import (
     number,
     positive,
 )
+from assoc_hull.display import ShownAsText
 from assoc_hull.edit.document import Document
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
@@ -200,7 +201,7 @@ def plates_of_hull(surface: Any, seams: HullSeams, *args: Any, **options: Any) -
 
 
 @attrs.frozen(eq=False)
-class HullSurface(NetSurface):
+class HullSurface(ShownAsText, NetSurface):
     """The surface of a half hull: a `NetSurface` that can be measured, meshed and written."""
 
     @property

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.arguments import file_path, integer, shown
+from assoc_hull.display import ShownAsText
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.recording import VariedValues
 from assoc_hull.errors import BadInputError, WrongTypeError
@@ -55,7 +56,7 @@ class HasDocument(HasState, Protocol):
 
 
 @attrs.frozen(eq=False)
-class Study(Generic[HullType]):
+class Study(ShownAsText, Generic[HullType]):
     """Variants of a hull.
 
     Attributes

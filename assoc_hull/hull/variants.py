@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 import attrs
 
+from assoc_hull.display import ShownAsText
+
 if TYPE_CHECKING:
     from assoc_hull.variation.fields.space_map import VariationMap
     from assoc_hull.variation.jumboise_hull import JumboiseReport
@@ -22,7 +24,7 @@ HullType = TypeVar("HullType")
 
 
 @attrs.frozen(eq=False)
-class Jumboised(Generic[HullType]):
+class Jumboised(ShownAsText, Generic[HullType]):
     """A hull with a longer or shorter parallel body.
 
     Attributes
@@ -41,7 +43,7 @@ class Jumboised(Generic[HullType]):
 
 
 @attrs.frozen(eq=False)
-class Variation(Generic[HullType]):
+class Variation(ShownAsText, Generic[HullType]):
     """A varied hull.
 
     Attributes
@@ -63,7 +65,7 @@ class Variation(Generic[HullType]):
 
 
 @attrs.frozen(eq=False)
-class Shifted(Generic[HullType]):
+class Shifted(ShownAsText, Generic[HullType]):
     """A hull whose sections were shifted, or that was swung.
 
     Attributes

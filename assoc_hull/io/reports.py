@@ -14,6 +14,7 @@ from collections.abc import Callable
 import attrs
 import numpy as np
 
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 
@@ -32,7 +33,7 @@ __all__ = [
 
 
 @attrs.frozen
-class Note:
+class Note(ShownAsText):
     """One remark on a table.
 
     Attributes
@@ -57,7 +58,7 @@ class Note:
 
 
 @attrs.frozen
-class OffsetReport:
+class OffsetReport(ShownAsText):
     """Everything a reader decided that the file does not say by itself.
 
     Attributes

@@ -61,5 +61,8 @@ class NamedMapping(Mapping[str, Item]):
     def __contains__(self, name: object) -> bool:
         return self._name(name) is not None
 
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self._items)
+
     def __repr__(self) -> str:
         return f"<{len(self._items)} by name: {', '.join(list(self._items)[:4])}, ...>"

@@ -909,6 +909,9 @@ class Points(Mapping[str, Point]):
         except (BadInputError, UnknownNameError):
             return False
 
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
     def items(self) -> ItemsView[str, Point]:
         """Give addresses with their points."""
         return dict(self._all()).items()

@@ -9,6 +9,7 @@ boundary curves and all that the map left alone stay. [own]
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 
 import attrs
@@ -20,11 +21,16 @@ from assoc_hull.analysis.fairness.bent_curves import BentCurves, CurvatureRates,
 from assoc_hull.analysis.fairness.kept_signs import KeptSigns
 from assoc_hull.edit.displacement_field import SolvedField
 from assoc_hull.edit.field_moves import FieldMoves
-from assoc_hull.edit.net_battens import net_battens
+from assoc_hull.edit.net_battens import mending_ties, net_battens
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.fairness.combs import DEAD_BAND, comb_integrals, sampled_curvatures
+from assoc_hull.geometry.fairness.combs import (
+    DEAD_BAND,
+    comb_integrals,
+    sampled_curvatures,
+    signs_without_waves,
+)
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.comparing.line_fairness import (
     FairnessComparison,
@@ -108,6 +114,8 @@ class ParentLines:
         return cls(fairness, shapes, places)
 
 
+_Bools = np.typing.NDArray[np.bool_]
+
 Step = Mapping[str, FloatArray]
 """How points are moved at once, (3,), m, by their keys."""
 
@@ -121,9 +129,10 @@ class FairedFollowers:
     within : float, m
         How far points could move from where the map took them.
     points : int
-        How many have moved.
+        How many have moved; adopted points that close a gap follow the line that they close it to,
+        as crossings that are computed follow, and are not counted.
     largest : float, m
-        The farthest.
+        The farthest of them.
     before, after : int
         Changes of sign of curvature that lines have more than those of the parent, summed over the
         lines that have more: by the map alone, and now.
@@ -164,21 +173,26 @@ def fair_followers(edit: Transaction, parent: ParentLines, within: float) -> Fai
         How far points may move.
     """
     first = best = found = _Judged.of(edit.state, parent)
-    keep, kept, steps = edit.stages, list[Step](), list[Step]()
+    keep, kept, steps, led = edit.stages, list[Step](), list[Step](), set[str]()
     for part in _PARTS:
         if not best.may_gain:
             break
         edit.take_back(keep)
-        found, steps = first, []
+        found, steps, tighter = first, [], dict[str, float]()
         for _ in range(_PASSES):
-            step = _Search.of(edit.state, parent, first, found, part * within, steps).step()
-            stages = edit.stages
+            search = _Search.of(edit.state, parent, first, found, part * within, steps, tighter)
+            step, stages = search.step(), edit.stages
+            led |= search.led
             if not step or not _carried(edit, step):
                 break
             now = _Judged.of(edit.state, parent)
-            if now.count >= found.count or now.sharp(first):
+            too_large = now.sharper(first)
+            if now.count >= found.count or too_large:
                 edit.take_back(stages)
-                break
+                if now.count >= found.count or too_large.keys() <= tighter.keys():
+                    break
+                tighter |= too_large
+                continue
             found, steps = now, [*steps, step]
             if not found.may_gain:
                 break
@@ -188,7 +202,7 @@ def fair_followers(edit: Transaction, parent: ParentLines, within: float) -> Fai
         edit.take_back(keep)
         for step in kept:
             _carry(edit, step)
-    return _told(within, kept, first, best)
+    return _told(within, kept, led, first, best)
 
 
 def repeat_fairing(
@@ -210,9 +224,12 @@ def repeat_fairing(
     return attrs.evolve(before, after=now.count, lines=now.lines)
 
 
-def _told(within: float, steps: list[Step], first: _Judged, best: _Judged) -> FairedFollowers:
-    """Say what was done."""
-    size = [float(np.sqrt(each @ each)) for each in _summed(steps).values()]
+def _told(
+    within: float, steps: list[Step], led: set[str], first: _Judged, best: _Judged
+) -> FairedFollowers:
+    """Say what was done; points that are `led` follow others, as computed ones do."""
+    moves = [move for key, move in _summed(steps).items() if key not in led]
+    size = [float(np.sqrt(each @ each)) for each in moves]
     return FairedFollowers(
         within, len(size), max(size, default=0.0), first.count, best.count, best.lines,
         tuple(steps),
@@ -308,10 +325,11 @@ class _Judged:
             for each in self.compared.lines
         }  # fmt: skip
 
-    def sharp(self, first: _Judged) -> bool:
-        """Tell whether the comb of a line is larger than it may become."""
+    def sharper(self, first: _Judged) -> dict[str, float]:
+        """Give by what factor combs of lines are larger than they may become."""
         limits = first.limits()
-        return any(size > limits.get(key, np.inf) for key, size in self.combs.items())
+        parts = {key: size / limits.get(key, np.inf) for key, size in self.combs.items()}
+        return {key: part for key, part in parts.items() if part > 1.0}
 
 
 # --------------------------------------------------------------------------------------
@@ -326,8 +344,10 @@ class _Search:
     ----------
     state : HullState
         The hull as it is.
+    every, ties : BattenProblem, (k, c) sparse
+        The points that may move, and what they do with those that move by themselves.
     problem : BattenProblem
-        The points that may move.
+        The points that move by themselves.
     bent : BentCurves or None
         The plane curves that they bend; None if there are none.
     lines : (m,) int
@@ -343,6 +363,8 @@ class _Search:
     """
 
     state: HullState
+    every: BattenProblem
+    ties: csr_array
     problem: BattenProblem
     bent: BentCurves | None
     lines: IntArray
@@ -358,10 +380,15 @@ class _Search:
     @classmethod
     def of(
         cls, state: HullState, parent: ParentLines, first: _Judged, now: _Judged, within: float,
-        steps: list[Step],
+        steps: list[Step], tighter: Mapping[str, float],
     ) -> _Search:  # fmt: skip
-        """Lay out the search on a hull that some steps have moved already."""
-        problem = _movable(state, parent)
+        """Lay out the search on a hull that some steps have moved already.
+
+        Combs of lines are held `tighter` by a factor where one that was carried out was too large.
+        """
+        every = _movable(state, parent)
+        chosen, ties = mending_ties(state, every)
+        problem = every.tied(chosen, ties)
         curves = _bending(state, parent, problem)
         gone, reach = _gone(state, problem, steps), within * problem.freedom
         kept = KeptSigns(
@@ -372,11 +399,11 @@ class _Search:
         lines = np.array([keys.index(key) for key in line_keys], np.int64)
         was = np.array([parent.fairness[key].sign_changes for key in keys], np.int64)
         limits = first.limits()
-        limit = _FORETOLD * np.array([limits[key] for key in keys])
+        limit = np.array([_FORETOLD * limits[key] / tighter.get(key, 1.0) ** 2 for key in keys])
         none = np.zeros(len(keys))
         found = cls(
-            state, problem, None, lines, keys, none, none, kept, was, np.zeros_like(was), limit,
-            none,
+            state, every, ties, problem, None, lines, keys, none, none, kept, was,
+            np.zeros_like(was), limit, none,
         )  # fmt: skip
         if not len(curves) or not len(problem.rows):
             return found
@@ -388,24 +415,45 @@ class _Search:
         found.spare = np.array([now.combs[key] for key in keys]) - combs
         return found
 
+    @property
+    def led(self) -> set[str]:
+        """Keys of the points that others lead."""
+        rows = np.setdiff1d(self.every.rows, self.problem.rows)
+        return {str(self.state.rows.key[row]) for row in rows.tolist()}
+
     def step(self) -> Step:
         """Give the best step that is found; empty where there is none."""
-        delta = self._found()
+        delta = self.ties @ self._found()
         state, some = self.state, np.flatnonzero(delta != 0.0)
-        moves = self.problem.moves[some] * delta[some][:, None]
-        rows = self.problem.rows[some].tolist()
+        moves = self.every.moves[some] * delta[some][:, None]
+        rows = self.every.rows[some].tolist()
         return {str(state.rows.key[row]): move for row, move in zip(rows, moves, strict=True)}
 
     def _found(self) -> FloatArray:
         """Give displacements (k,), m, with the fewest new changes that are foretold."""
-        delta = best = np.zeros(len(self.problem.rows))
+        still = np.zeros(len(self.problem.rows))
         if self.bent is None:
-            return best
-        bent, least = self.bent, np.inf
+            return still
+        first = self.bent.rates(still)
+        known = self.low[first.knot] > -DEAD_BAND, self.high[first.knot] < DEAD_BAND
+        best, least = self._searched(first, *known)
+        if least:
+            # Where the map has given a line another shape, the signs of the parent are no measure.
+            other, fewer = self._searched(first, *self._without_small_waves(first))
+            best = other if fewer < least else best
+        return best
+
+    def _searched(self, first: CurvatureRates, up: _Bools, down: _Bools) -> tuple[FloatArray, int]:
+        """Search; where `up` (b,) the curvature is not to be negative, where `down` not positive.
+
+        Gives displacements (k,), m, and how many new changes are foretold with them.
+        """
+        assert self.bent is not None, "curves bend"
+        delta = best = np.zeros(len(self.problem.rows))
+        least, vain, rates = sys.maxsize, 0, first
         weight, stiffer = np.ones(len(self.keys)), np.ones(len(self.keys))
         ever = np.zeros(len(self.keys), np.bool_)
-        digit, first = _DIGIT * self.state.tolerances.factor, None
-        vain = 0
+        digit = _DIGIT * self.state.tolerances.factor
         for _ in range(_TURNS):
             gained, sharp = self._wanting(np.round(delta / digit) * digit)
             count = int(np.maximum(gained, 0).sum())
@@ -417,14 +465,34 @@ class _Search:
             weight[(gained > 0) & ever] *= _HEAVIER
             stiffer[sharp] *= _STIFFER
             ever |= gained > 0
-            rates = bent.rates(delta)
-            first = rates.value if first is None else first
-            delta = self._answer(rates, first, ever, weight, stiffer, delta)
-        return best
+            rates = self.bent.rates(delta) if delta.any() else first
+            delta = self._answer(rates, first.value, (up, down), ever, weight, stiffer, delta)
+        return best, least
+
+    def _without_small_waves(self, first: CurvatureRates) -> tuple[_Bools, _Bools]:
+        """Say where curvature has to stay of its sign, and of that of the neighbours in waves.
+
+        A wave is a run of one sign; the smallest of a line, by how much they turn, are to go, until
+        it has no more changes of sign than the parent.
+        """
+        assert self.bent is not None, "curves bend"
+        count = len(first.value) // 2  # starts of all segments, then ends
+        order = np.arange(2 * count).reshape(2, count).T.ravel()
+        owner = self.bent.owner[first.knot[order]]
+        place = self.bent.lofted(np.zeros(len(self.problem.rows))).xyz
+        chord = place[first.knot[count:]] - place[first.knot[:count]]
+        turn = np.abs(first.value[order]) * np.sqrt((chord * chord).sum(axis=1)).repeat(2)
+        aimed = np.zeros(2 * count, np.int8)
+        for line, most in enumerate((self.parent - self.rest).tolist()):
+            some = np.flatnonzero(self.lines[owner] == line)
+            aimed[order[some]] = signs_without_waves(
+                first.value[order[some]], turn[some], owner[some], most
+            )
+        return aimed > 0, aimed < 0
 
     def _answer(
-        self, rates: CurvatureRates, first: FloatArray, ever: np.typing.NDArray[np.bool_],
-        weight: FloatArray, stiffer: FloatArray, delta: FloatArray,
+        self, rates: CurvatureRates, first: FloatArray, sides: tuple[_Bools, _Bools],
+        ever: _Bools, weight: FloatArray, stiffer: FloatArray, delta: FloatArray,
     ) -> FloatArray:  # fmt: skip
         """Solve about displacements (k,), m, for others that keep curvature within bounds."""
         assert self.bent is not None, "curves bend"
@@ -433,8 +501,7 @@ class _Search:
         high = np.where(ever[line], inner, np.maximum(outer, first))
         low = np.where(ever[line], -inner, np.minimum(-outer, first))
         felt = np.diff(rates.rate.indptr) > 0
-        up = np.flatnonzero(felt & (self.high[rates.knot] < DEAD_BAND))
-        down = np.flatnonzero(felt & (self.low[rates.knot] > -DEAD_BAND))
+        down, up = (np.flatnonzero(felt & side) for side in sides)
         rate = csr_array(vstack([rates.rate[up], -rates.rate[down]]))
         beyond = np.concatenate([(rates.value - high)[up], (low - rates.value)[down]])
         cost = weight[line[np.concatenate([up, down])]] / (_SHARP * DEAD_BAND) ** 2

@@ -20,6 +20,7 @@ from assoc_hull.analysis.hydrostatics.floating_body import StationAreas
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
 from assoc_hull.arguments import choice, number, text
+from assoc_hull.display import ShownAsText
 from assoc_hull.edit.crossings.adopted_points import insert_defining_point
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.lines.add_line import add_line
@@ -74,7 +75,7 @@ _ANY = 1e5
 
 
 @attrs.frozen
-class JumboiseReport:
+class JumboiseReport(ShownAsText):
     """What was inserted or taken out.
 
     Attributes

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.analysis.derivatives.parameters import DRAUGHT, TRIM, Parameter
 from assoc_hull.arguments import choice, shown
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import (
     BadInputError,
     FoldError,
@@ -56,7 +57,7 @@ def _read_only(given: Mapping[str, str]) -> Mapping[str, str]:
 
 
 @attrs.frozen(eq=False)
-class Sensitivities:
+class Sensitivities(ShownAsText):
     """Derivatives of m outputs by k parameters.
 
     Attributes

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import attrs
 import numpy as np
 
+from assoc_hull.display import ShownAsText
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.mapped_planes import IN_PLANE
 from assoc_hull.edit.report import EditReport
@@ -216,7 +217,7 @@ def composed_of(maps: int, layout: Layout) -> tuple[str, ...]:
 
 
 @attrs.frozen
-class Target:
+class Target(ShownAsText):
     """A named parameter of a variation.
 
     Attributes
@@ -238,7 +239,7 @@ class Target:
 
 
 @attrs.frozen
-class VariationReport:
+class VariationReport(ShownAsText):
     """What a variation did.
 
     Attributes

@@ -9,7 +9,7 @@ from assoc_hull.plot import combs_plan
 from assoc_hull.plot.lines_plan.comparison import comparison_plan
 from assoc_hull.plot.lines_plan.plan import lines_plan
 
-__all__ = ["bulk_carrier", "carrier_combs", "counter", "stern_faired", "stern_heat"]
+__all__ = ["bulk_carrier", "carrier_combs", "counter", "led_buttocks", "stern_faired", "stern_heat"]
 
 _STERN = (-5.5, 45.0)
 _NOISE = 0.020 / 12**0.5
@@ -51,6 +51,21 @@ def counter() -> Figure:
             b = intersect_planes(curve.spline, _AHEAD, np.array([2.2])).xyz[0]
             shape = [a + 0.020 * _UP, b + 0.025 * _UP]
             edit.reshape(curve, points=shape, span=(-3.75, 30.0), fair=True)
+    return comparison_plan(before, hull, exaggerate=50, x=(-5.5, 20.0))
+
+
+def led_buttocks() -> Figure:
+    """Draw what moved when two buttocks led: the first example of Choi and Lee."""
+    hull = ah.examples.bulk_carrier_207k()
+    before = hull.plot.snapshot()
+    asked = {}
+    for name in ("BTK 0.5", "BTK 1"):
+        at = hull[f"{name} x ST 0"].position
+        (met,) = hull.lines[name].meet(((1, 0, 0), 2.2))
+        asked[name] = [(f"{name} x ST 0", at + 0.020 * _UP), met + 0.025 * _UP]
+    with hull.edit("two buttocks lead") as edit:
+        for name, points in asked.items():
+            edit.lead(name, points)
     return comparison_plan(before, hull, exaggerate=50, x=(-5.5, 20.0))
 
 

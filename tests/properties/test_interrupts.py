@@ -25,7 +25,7 @@ from tests.properties.test_published_states import content
 
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 ROOT = str(Path(ah.__file__).parent)
-COUNT = 400 if LONG else 15
+COUNT = 400 if LONG else 10
 """Interrupts an act."""
 
 

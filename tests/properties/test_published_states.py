@@ -261,10 +261,10 @@ def test_one_reading_is_of_one_state(what: str, monkeypatch: pytest.MonkeyPatch)
 
 @pytest.mark.parametrize("name", ["wigley", *(["series60_70"] if LONG else [])])
 def test_readers_in_other_threads_see_committed_states_only(name: str, shipped: Shipped) -> None:
-    """Eight of them beside one writer; 60 s in the long form."""
+    """Eight of them beside one writer, which edits and takes back; 60 s in the long form."""
     hull = shipped(name)
     point = next(each for each, found in hull.points.items() if "y" in found.free and found.y > 1.0)
-    ask, seconds = _readings(hull, point), 60.0 if LONG else 4.0
+    ask, seconds = _readings(hull, point), 60.0 if LONG else 3.0
     seen: dict[str, set[object]] = {each: set() for each in ask}
     raised, over = list[BaseException](), threading.Event()
 
@@ -290,7 +290,7 @@ def test_readers_in_other_threads_see_committed_states_only(name: str, shipped: 
         thread.start()
     start, end, step = hull.points[point].y, time.monotonic() + seconds, 0
     try:
-        while (time.monotonic() < end or step < 8) and not over.is_set():
+        while (time.monotonic() < end or step < 5) and not over.is_set():
             step += 1
             if step % 4 == 0:
                 hull.undo()

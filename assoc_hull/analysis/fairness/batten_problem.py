@@ -82,6 +82,16 @@ class BattenProblem:
             csr_array(self.rates[:, chosen]), self.all_moves,
         )  # fmt: skip
 
+    def tied(self, chosen: IntArray, ties: csr_array) -> BattenProblem:
+        """Give the problem in which some points alone move, and all displacements follow theirs.
+
+        `chosen` (c,) are places in `rows`; displacements (k,) are `ties` (k, c) times theirs.
+        """
+        return attrs.evolve(
+            self, rows=self.rows[chosen], moves=self.moves[chosen], freedom=self.freedom[chosen],
+            matrix=csr_array(self.matrix @ ties), rates=csr_array(self.rates @ ties),
+        )  # fmt: skip
+
     def residuals_of(self, chosen: IntArray) -> BattenProblem:
         """Give the problem of some of the residuals, by their places."""
         return attrs.evolve(

@@ -9,6 +9,7 @@ for.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from html import escape
 from types import MappingProxyType
 from typing import Any
 
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.analysis.hydrostatics.floating_body import Appendage, FloatingPosition, Freeboard
 from assoc_hull.arguments import all_of, checked, flag, not_negative, number, plain, positive, text
+from assoc_hull.display import ShownAsText, html_table
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.model.named_mapping import NamedMapping
 
@@ -157,7 +159,7 @@ def _frozen(values: Mapping[str, float | None]) -> Mapping[str, float | None]:
 
 
 @attrs.frozen(eq=False)
-class Hydrostatics:
+class Hydrostatics(ShownAsText):
     """Hydrostatics at one floating position, both sides, in ship axes.
 
     x is from AP, + forward; y + to port; z from the base line, up; m, t, m3. `FIELDS` in
@@ -248,6 +250,33 @@ class Hydrostatics:
     i_lt_proj: float
     error: Mapping[str, float | None] = attrs.field(converter=_frozen)
     notes: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        rows = self._shown()
+        wide = [max(len(row[column]) for row in rows) for column in range(3)]
+        lines = [
+            f"{symbol:<{wide[0]}}  {value:>{wide[1]}}  {off:<{wide[2]}}  {title}".rstrip()
+            for symbol, value, off, title in rows
+        ]
+        return "\n".join([*lines, *self.notes])
+
+    def _repr_html_(self) -> str:
+        head = ("", "value", "may be off by", "")
+        notes = "".join(f"<p>{escape(each)}</p>" for each in self.notes)
+        return html_table(head, self._shown(), right=(1,)) + notes
+
+    def _shown(self) -> list[tuple[str, str, str, str]]:
+        """Give symbol, value with unit, how far it may be off, and title, of what has a value."""
+        found = list[tuple[str, str, str, str]]()
+        for name, field in FIELDS.items():
+            value, off = getattr(self, name), self.error.get(name)
+            if value is None:
+                continue
+            unit = "" if field.unit == "-" else f" {field.unit}"
+            may = "" if off is None else f"± {off:,.0f}" if off >= 1.0 else f"± {off:.1g}"
+            symbol = name if field.symbol == "-" else field.symbol
+            found.append((symbol, f"{value + 0.0:,.{field.digits}f}{unit}", may, field.title))
+        return found
 
 
 def record_of_row(

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.analysis.resistance.holtrop_ship import HoltropShip
+from assoc_hull.display import ShownAsText
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = [
@@ -144,7 +145,7 @@ def _fixed_columns(given: Mapping[str, FloatArray]) -> Mapping[str, FloatArray]:
 
 
 @attrs.frozen(eq=False, kw_only=True)
-class Resistance:
+class Resistance(ShownAsText):
     """Resistance in calm deep water at n speeds.
 
     Attributes

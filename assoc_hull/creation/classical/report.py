@@ -16,6 +16,7 @@ import numpy as np
 
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.arguments import instance, text
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
@@ -81,7 +82,7 @@ class Departure:
 
 
 @attrs.frozen
-class ClassicalReport:
+class ClassicalReport(ShownAsText):
     """What a definition says of itself.
 
     Attributes

@@ -207,7 +207,11 @@ def rebase_adopted_points(state: HullState, rows: IntArray, journal: Journal) ->
 
 _NEAR = 0.15
 """Times `Tolerances.factor`: an adopted point as near as this (m) is moved instead of setting
-another beside it."""
+another beside it,"""
+
+_NEARER = 3.0
+"""and one that is nearer by this factor than the points before and after the place: two side by
+side would bend the curve both ways."""
 
 
 def mend_gaps(
@@ -244,7 +248,11 @@ def _hold(maker: Maker, curve: int, place: FloatArray) -> int | None:
     defining: IntArray = state.curves.rows[curve]
     away = np.sqrt(((state.rows.xyz[defining] - place) ** 2).sum(axis=1))
     nearest = int(away.argmin())
-    if away[nearest] >= state.tolerances.factor * _NEAR:
+    others = np.delete(away, nearest)
+    crowded = state.rows.sort[defining[nearest]] == Sort.ADOPTED and (
+        away[nearest] * _NEARER < others.min(initial=np.inf)
+    )
+    if away[nearest] >= state.tolerances.factor * _NEAR and not crowded:
         point = maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0]
         insert_defining_point(maker, curve, int(point))
         return -1

@@ -13,6 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import shown
+from assoc_hull.display import ShownAsText
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.modifications.definitions import definition_meant
 from assoc_hull.edit.report import change_text
@@ -48,7 +49,7 @@ _PLAIN = ("|  ", "   ", "|- ", "`- ")
 
 
 @attrs.frozen
-class Why:
+class Why(ShownAsText):
     """The causes of the last change of one object, a tree.
 
     Attributes

@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 import attrs
 
 from assoc_hull.analysis.hydrostatics.flotation import even_keel_displacement
+from assoc_hull.display import ShownAsText
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.past_states import run_together, steps_together
 from assoc_hull.edit.step import Step
@@ -37,7 +38,7 @@ __all__ = [
 
 
 @attrs.frozen
-class LineDifference:
+class LineDifference(ShownAsText):
     """How a line differs between two states.
 
     Attributes
@@ -65,7 +66,7 @@ class LineDifference:
 
 
 @attrs.frozen
-class Comparison:
+class Comparison(ShownAsText):
     """Two states of a hull side by side.
 
     Attributes

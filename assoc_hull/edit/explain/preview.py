@@ -16,6 +16,7 @@ import numpy as np
 
 from assoc_hull.analysis.hydrostatics.flotation import EvenKeelDisplacement, even_keel_displacement
 from assoc_hull.arguments import all_of, flag, text
+from assoc_hull.display import ShownAsText
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain.causes import Thing, Why, node_of, why_after
 from assoc_hull.edit.recording import Script, Settings
@@ -162,7 +163,7 @@ _KEPT = ("refused", "why", "shapes", "plain", *_FOUND)
 
 
 @attrs.frozen(eq=False, slots=False)
-class Preview:
+class Preview(ShownAsText):
     """What an edit would do.
 
     Attributes

@@ -363,8 +363,9 @@ class FairAnswer:
         RefusedEditError
             As the update refused the last answer that was tried.
         """
-        before, state = _shapes(self.edit.state), self.edit.state
         self.edit.end_stage()
+        # What was asked plainly in the same edit is there already: it is no gain of the answer's.
+        before, state = _shapes(self.edit.state), self.edit.state
         net, stretches = NetBefore.of(state), self._lead()
         every = np.concatenate([each.rows for each in self.asked])
         if not state.rows.alive[every].all():
@@ -376,6 +377,8 @@ class FairAnswer:
         for _ in range(_AGAIN):
             search = _Search.of(self.edit, self.asked, before)
             if not search.moves:
+                names = ", ".join(dict.fromkeys(each.name for each in self.asked))
+                self.edit.notes.append(f"{names}: the hull is there already, no point moves")
                 return
             best = search.find(best)
             search.carry_out(best)
@@ -659,6 +662,7 @@ class _Search:
             f"answered fairly within {reach}: {int(far.sum())} points move by more than 1 mm, "
             f"{self.trials} tried"
         )
+        yield from self._springs(best.answer.delta)
         state = self.edit.state
         for curve, (was, now, _) in best.gained.items():
             line = state.lines.name[state.line_of(curve)]
@@ -666,6 +670,27 @@ class _Search:
                 f"{line} has {now} changes of the sign of curvature, {was} before: where it is "
                 f"straight, {1e3 * deepest:.0f} mm want a radius of {_STRAIGHT * deepest:.0f} m"
             )
+
+    def _springs(self, delta: FloatArray) -> Iterator[str]:
+        """Say how far a batten springs at most where points moved, before and now."""
+        problem, state = self.problem, self.edit.state
+        more = problem.matrix @ delta
+        felt = np.flatnonzero(np.abs(more) > _FELT)
+        if not len(felt):
+            return
+        was, now = np.abs(problem.residual[felt]), np.abs(problem.residual[felt] + more[felt])
+        worst = int((now - was).argmax())
+        line = state.lines.name[state.line_of(int(problem.curve[felt][worst]))]
+        x, y, z = state.rows.xyz[int(problem.centre[felt][worst])].tolist()
+        told = (
+            f"a batten springs there by {1e3 * was.max():.1f} mm at most before, by "
+            f"{1e3 * now.max():.1f} mm now; it rose most on {line} at ({x:.3f}, {y:.3f}, {z:.3f}) "
+            f"m, from {1e3 * was[worst]:.1f} to {1e3 * now[worst]:.1f} mm"
+        )
+        deepest = float(np.abs(self.least.amount).max())
+        if now[worst] > max(_SPRINGS * was[worst], _DEEP * deepest):
+            told += ": more than twice; spread it over more points, or ask for less"
+        yield told
 
 
 def _stands(state: HullState, row: int) -> tuple[object, ...]:
@@ -711,6 +736,13 @@ def _shapes(state: HullState) -> dict[int, SplineBatch]:
     live = state.live("curves").tolist()
     shapes = state.curves.spline.data
     return {curve: found for curve in live if (found := shapes[curve]) is not None}
+
+
+_FELT = 1e-6
+"""m: a residual that changes by less has not changed."""
+
+_SPRINGS, _DEEP = 2.0, 0.25
+"""A batten is told of that springs so many times as far, and by so much of what is asked."""
 
 
 @attrs.frozen(eq=False)

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import pair
+from assoc_hull.arguments import pair, shown
 from assoc_hull.edit.crossings.adopted_points import insert_defining_point
 from assoc_hull.edit.led_lines import LineLed
 from assoc_hull.edit.lines.line_planes import checked_in_planes
@@ -118,7 +118,7 @@ class _Chooser:
             return
         section = self.state.family(self.state.line_of(self.curves[0])).axis == 0
         if not span[0] < float(xyz[2 if section else 0]) < span[1]:
-            what = f"the place {xyz.tolist()} lies outside the span {span}"
+            what = f"the place {xyz.tolist()} lies outside the span {shown(span)}"
             raise BadInputError(what, self.where, "widen the span or leave the point out")
 
     def take(self, row: int | None, xyz: FloatArray) -> None:

@@ -15,7 +15,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import pair, places
+from assoc_hull.arguments import pair, places, shown
 from assoc_hull.edit.crossings.adopted_points import insert_defining_point, insertion_index
 from assoc_hull.edit.displacement_field import (
     FieldContext,
@@ -398,7 +398,7 @@ def _checked(
     off = (shape[:, axis] <= span[0]) | (shape[:, axis] >= span[1])
     if off.any():
         raise BadInputError(
-            f"the point {shape[off][0].tolist()} lies outside the span {span}",
+            f"the point {shape[off][0].tolist()} lies outside the span {shown(span)}",
             f"in reshape of {name}",
             "widen the span or leave the point out",
         )

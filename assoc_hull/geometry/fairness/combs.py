@@ -8,9 +8,11 @@ looks at how far the tangent turns: a long flat wave turns much and bends little
 
 from __future__ import annotations
 
+import itertools
+
 import attrs
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
@@ -31,6 +33,7 @@ __all__ = [
     "comb_teeth",
     "curvature_sign_changes",
     "sampled_curvatures",
+    "signs_without_waves",
 ]
 
 
@@ -192,6 +195,86 @@ def sampled_curvatures(batch: SplineBatch, normals: ArrayLike) -> SampledCurvatu
     first, second, normal = _derivatives(batch, normals, np.linspace(0.0, 1.0, _SAMPLES), 2)
     value = plane_curvature(first, second, normal).ravel()
     return SampledCurvatures(batch.count, np.repeat(segment_curve(batch), _SAMPLES), value)
+
+
+def signs_without_waves(
+    value: FloatArray, turn: FloatArray, curve: IntArray, most: int
+) -> NDArray[np.int8]:
+    """Give the signs that curvature along a line would have without its smallest waves.
+
+    Parameters
+    ----------
+    value : (n,), 1/m
+        Curvature at places along the curves of a line, one curve after the other.
+    turn : (n,), rad
+        By how much the tangent turns about each place.
+    curve : (n,) int
+        The curve of each place.
+    most : int
+        So many changes of sign may be left over all curves.
+
+    Returns
+    -------
+    (n,) int8
+        1 or -1; 0 between two runs of different signs, where there is none beyond the dead band.
+
+    Examples
+    --------
+    A small hollow between two rounds goes:
+
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.fairness.combs import signs_without_waves
+    >>> value, one = np.array([0.1, 0.2, -0.01, 0.1, 0.0, -0.3]), np.zeros(6, np.int64)
+    >>> signs_without_waves(value, np.abs(value), one, 1).tolist()
+    [1, 1, 1, 1, 0, -1]
+    """
+    runs = _runs_of_sign(value, turn, curve)
+    while (meets := _changing(runs)).sum() > most:
+        beside = np.append(False, meets) | np.append(meets, False)
+        least = int(
+            np.argmin(
+                [run.turn if near else np.inf for run, near in zip(runs, beside, strict=True)]
+            )
+        )
+        first = least - int(np.append(False, meets)[least])
+        last = least + int(np.append(meets, False)[least])
+        parts = runs[first : last + 1]
+        runs[first : last + 1] = [
+            _Run(-runs[least].sign, parts[0].first, parts[-1].last, runs[least].curve,
+                 sum(part.turn for part in parts))
+        ]  # fmt: skip
+    signs = np.zeros(len(value), np.int8)
+    for run in runs:
+        signs[run.first : run.last + 1] = run.sign
+    return signs
+
+
+@attrs.frozen
+class _Run:
+    """Places of a curve, from the first to the last, where curvature is of one sign."""
+
+    sign: int
+    first: int
+    last: int
+    curve: int
+    turn: float
+
+
+def _runs_of_sign(value: FloatArray, turn: FloatArray, curve: IntArray) -> list[_Run]:
+    """Part places beyond the dead band into runs of one sign, on one curve."""
+    beyond = np.flatnonzero(np.abs(value) > DEAD_BAND)
+    sign = np.sign(value[beyond]).astype(np.int64)
+    new = (np.diff(sign) != 0) | (np.diff(curve[beyond]) != 0)
+    return [
+        _Run(int(np.sign(value[part[0]])), int(part[0]), int(part[-1]), int(curve[part[0]]),
+             float(turn[part].sum()))
+        for part in np.split(beyond, np.flatnonzero(new) + 1) if len(part)
+    ]  # fmt: skip
+
+
+def _changing(runs: list[_Run]) -> NDArray[np.bool_]:
+    """Say which runs are followed by one of the same curve."""
+    return np.array([one.curve == other.curve for one, other in itertools.pairwise(runs)], np.bool_)
 
 
 def _derivatives(

@@ -17,6 +17,7 @@ from collections.abc import Sequence
 
 import attrs
 
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import NotSoundError
 
 __all__ = [
@@ -31,7 +32,7 @@ __all__ = [
 
 
 @attrs.frozen
-class ImportFinding:
+class ImportFinding(ShownAsText):
     """One thing that is wrong or looks wrong.
 
     Attributes
@@ -56,7 +57,7 @@ class ImportFinding:
 
 
 @attrs.frozen
-class Verdict:
+class Verdict(ShownAsText):
     """What an import is worth.
 
     Attributes

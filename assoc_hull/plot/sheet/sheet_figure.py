@@ -81,12 +81,13 @@ class Sheet:
     def __init__(self, paper: str | Paper, height: float | None = None) -> None:
         require_matplotlib()
         from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
+
+        from assoc_hull.plot.sheet.shown_figure import ShownFigure
 
         size = paper if isinstance(paper, Paper) else paper_of(paper)
         self.paper = size if height is None else attrs.evolve(size, height=height)
         inches = (self.paper.width / 25.4, self.paper.height / 25.4)
-        self.figure: Figure = Figure(figsize=inches, dpi=self.paper.dots, facecolor="white")
+        self.figure: Figure = ShownFigure(figsize=inches, dpi=self.paper.dots, facecolor="white")
         self._renderer = FigureCanvasAgg(self.figure).get_renderer()  # type: ignore[no-untyped-call]
         self.axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
         self.axes.set_xlim(0.0, self.paper.width)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
 from assoc_hull.arguments import all_of, flag, integer, positive
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError, OpenMeshError, OpenNetError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.floating.immersed_triangles import immersed_triangles, make_body
@@ -345,7 +346,7 @@ class BelowDraught:
 
 
 @attrs.frozen(eq=False)
-class ClosedMesh:
+class ClosedMesh(ShownAsText):
     """Triangles that enclose a hull, or its port half.
 
     Attributes

@@ -10,6 +10,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import instance, integer, shown
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
@@ -129,7 +130,7 @@ _MOST_NODES = 257
 
 
 @attrs.frozen(eq=False)
-class Development:
+class Development(ShownAsText):
     """A surface laid flat, as a grid of r nodes along and c across.
 
     All strains are what forming must put in: length on the surface over length in the plane, less

@@ -13,6 +13,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.display import ShownAsText
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.surface.plating.curvature_nodes import CurvatureNodes, curvature_nodes
 from assoc_hull.surface.plating.hull_seams import AXES, PlateRange
@@ -220,7 +221,7 @@ TOO_COARSE = "net too coarse for regions"
 
 
 @attrs.frozen(eq=False)
-class HullPlate:
+class HullPlate(ShownAsText):
     """What lies between two butts and two seams of a hull.
 
     Attributes

@@ -13,6 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import all_of, choice, instance
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
@@ -91,7 +92,7 @@ COLUMNS: tuple[PlateColumn, ...] = (
 
 
 @attrs.frozen(eq=False)
-class HullPlateTable:
+class HullPlateTable(ShownAsText):
     """Plates of a hull, one row each, from aft forward and from below upward.
 
     Attributes

@@ -13,6 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import integer
+from assoc_hull.display import ShownAsText
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.plating.curvature_nodes import CurvatureNodes, curvature_nodes
@@ -164,7 +165,7 @@ def _regions(name: str, areas: RegionAreas, shares: PlateShares, kind: str) -> I
 
 
 @attrs.frozen(eq=False)
-class Plate:
+class Plate(ShownAsText):
     """A plate of a shell: regions, class, roll axis, what forming takes.
 
     Attributes

@@ -14,6 +14,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import choice, instance, numbers, shown
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
@@ -211,7 +212,7 @@ COLUMNS: tuple[PlateColumn, ...] = (
 
 
 @attrs.frozen(eq=False)
-class PlateTable:
+class PlateTable(ShownAsText):
     """Plates of a shell, one row each.
 
     Attributes

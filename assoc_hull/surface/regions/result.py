@@ -23,6 +23,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import choice, integer
+from assoc_hull.display import ShownAsText
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.patches.cells import CellKind
 from assoc_hull.geometry.patches.outlines import (
@@ -144,7 +145,7 @@ def _outline(
 
 
 @attrs.frozen(eq=False, slots=False)
-class RegionResult:
+class RegionResult(ShownAsText):
     """Regions of Gaussian curvature of some surfaces.
 
     What is certain: in `positive` is K > K0 and in `negative` K < -K0, but for what quadrature may

@@ -256,7 +256,10 @@ def _faired(carry: StagedCarry, again: FairedFollowers | None) -> FairedFollower
     from assoc_hull.variation.faired_followers import fair_followers, repeat_fairing
 
     if again is not None:
-        return repeat_fairing(edit, lines, again)
+        stages, found = edit.stages, repeat_fairing(edit, lines, again)
+        if found.after <= again.after:
+            return found
+        edit.take_back(stages)  # the map differs enough to want another answer
     within = _USUAL * edit.state.tolerances.factor if fair is True else float(fair)
     return fair_followers(edit, lines, within)
 

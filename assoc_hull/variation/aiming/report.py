@@ -5,6 +5,7 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
+from assoc_hull.display import ShownAsText
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.variation.aiming.newton_iteration import AimStep, NewtonIteration
 from assoc_hull.variation.aiming.problem import Evaluated
@@ -18,7 +19,7 @@ _WORTH = 0.1
 
 
 @attrs.frozen(eq=False)
-class AimReport:
+class AimReport(ShownAsText):
     """What aiming at targets found.
 
     Attributes

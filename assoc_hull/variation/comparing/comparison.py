@@ -18,6 +18,7 @@ import attrs
 
 from assoc_hull.analysis.form.floating_shape import Screw
 from assoc_hull.arguments import choice, instance, integer
+from assoc_hull.display import ShownAsText
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.features import Place
 from assoc_hull.model.named_mapping import NamedMapping
@@ -98,7 +99,7 @@ _BY: Mapping[str, Callable[[LineComparison], float]] = MappingProxyType(
 
 
 @attrs.frozen(eq=False)
-class HullComparison:
+class HullComparison(ShownAsText):
     """A parent and a variant side by side; `str` gives it as a table.
 
     Attributes

@@ -17,6 +17,7 @@ from assoc_hull.analysis.form.form_parameters import form_parameters
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
 from assoc_hull.analysis.hydrostatics.section_areas import area_curve
+from assoc_hull.display import ShownAsText
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
@@ -384,7 +385,7 @@ _UNITS = {"volume": "m3", "lcb": "m", "lcb_percent": "% Lpp"}
 
 
 @attrs.frozen(eq=False)
-class ShiftReport:
+class ShiftReport(ShownAsText):
     """What a shift of sections did.
 
     Attributes

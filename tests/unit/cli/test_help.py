@@ -4,11 +4,15 @@ import argparse
 import json
 import re
 import shlex
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.cli import command_table, main
+from assoc_hull.cli.command_table import SYNONYMS
 from assoc_hull.cli.commands import make_parser
 
 _ACROSS = re.MULTILINE | re.DOTALL
@@ -66,8 +70,49 @@ def test_the_program_lists_its_commands_and_exit_codes() -> None:
     text = parser.format_help()
     assert [name for name in COMMANDS if name not in text.split()] == []
     assert "exit codes: 0 done; 1 findings" in text
-    for line in examples(parser):
+    shown = examples(parser)
+    assert len(shown) > 4
+    for line in shown:
         assert callable(parser.parse_args(shlex.split(line)[1:]).run)
+
+
+def test_the_table_lists_the_commands_that_are_made_and_no_others() -> None:
+    """Words of other programs lead to commands that are there, and are none themselves."""
+    assert sorted(command_table.COMMANDS) == sorted(COMMANDS)
+    assert set(SYNONYMS.values()) <= set(COMMANDS)
+    assert not set(SYNONYMS) & set(COMMANDS)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_of_a_command_its_own_module_is_enough(name: str) -> None:
+    """What is typed is read as it is with all commands there."""
+    (found,) = (
+        each for each in make_parser([name])._actions
+        if isinstance(each, argparse._SubParsersAction)
+    )  # fmt: skip
+    assert found.choices[name].format_help() == COMMANDS[name].format_help()
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [("hydro", "hydrostatics"), ("iges", "export"), ("smooth", "fair"), ("chek", "check")],
+)
+def test_a_name_that_is_no_command_is_told_what_may_be_meant(
+    typed: str, meant: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A beginning, a word of another program, a slip."""
+    assert main([typed, "ship.hull"]) == 2
+    told = capsys.readouterr().err
+    assert told.startswith(f"error: there is no command '{typed}'; did you mean '{meant}'")
+
+
+def test_help_loads_no_numbers() -> None:
+    """It is there at once: neither numpy nor a hull is imported for it."""
+    code = "import sys; from assoc_hull.cli import main; main(['--help']); print(*sys.modules)"
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    loaded = set(told.stdout.splitlines()[-1].split())
+    assert "assoc_hull.cli.commands" in loaded
+    assert not loaded & {"numpy", "scipy", "assoc_hull.hull", "assoc_hull.cli.edits"}
 
 
 def test_the_page_describes_the_commands_and_no_others() -> None:

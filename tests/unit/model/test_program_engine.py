@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import select
 import subprocess
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
+import assoc_hull
 from assoc_hull.cli import main
 from assoc_hull.model.program import engine as program_engine
 from assoc_hull.model.program.engine import engine_words, wait_for_engine
@@ -97,6 +100,23 @@ def test_what_a_child_compiles_is_found_by_another_process() -> None:
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.split("\n")[:3] == ["compiled by numba", "1 1 1 1", "True"], found
+
+
+def test_two_processes_do_not_compile_the_same_at_once() -> None:
+    """A minute of a processor is spent once; the second looks when the first is done."""
+    fcntl = pytest.importorskip("fcntl")
+    code = f"import assoc_hull\nprint('begun', flush=True)\n{program_engine._ALONE}\nprint('done')"
+    folder = os.open(Path(assoc_hull.__file__).parent, os.O_RDONLY)
+    try:
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as child:
+            assert child.stdout is not None
+            assert child.stdout.readline() == b"begun\n"
+            assert not select.select([child.stdout], [], [], 0.3)[0]
+            fcntl.flock(folder, fcntl.LOCK_UN)
+            assert child.stdout.read() == b"done\n"
+    finally:
+        os.close(folder)
 
 
 def test_the_command_tells(

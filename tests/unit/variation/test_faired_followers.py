@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.edit.checks.update_findings import plane_normals
+from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.variation.comparing.line_fairness import (
     FairnessComparison,
     compare_fairness,
@@ -148,3 +150,35 @@ def test_a_hull_that_stays_fair_is_left_as_the_map_takes_it(shipped: Shipped) ->
 def test_values_that_the_hull_has_make_no_step(shipped: Shipped) -> None:
     """Nothing is moved, so nothing is faired."""
     assert shipped("wigley").vary(set={"breadth": 10.0}, fair=True).hull.history == ()
+
+
+def test_a_shaft_and_a_bossing_that_are_raised_leave_the_lines_about_them_fair(
+    shipped: Shipped,
+) -> None:
+    """The second example of Choi and Lee (1999): two buttocks and two waterlines keep their count.
+
+    Counted at lobes of .2 degree; the buttock at 1 m, which comes to meet the end of the bossing,
+    has two branches with a knuckle between, and may have two changes more.
+    """
+    parent = shipped("bulk_carrier")
+    asked = {"shaft_height": 6.0, "bossing_radius": 1.0}
+    found = parent.vary(set=asked, fair=True)
+    assert found.hull.check() == ()
+    for target in found.report.targets:
+        assert abs(target.reached - asked[target.name]) < 1e-6
+    before, after = (lobes(hull) for hull in (parent, found.hull))
+    for key, more in (
+        ("buttocks:2.000000/1", 1), ("waterlines:8.000000/1", 1), ("waterlines:11.000000/1", 1),
+        ("buttocks:1.000000/1", 2),
+    ):  # fmt: skip
+        assert after[key] <= before[key] + more
+
+
+def lobes(hull: ah.Hull) -> dict[str, int]:
+    """Count the inflections of all curves by key, at lobes of .2 degree."""
+    state, curves = hull.state, hull.state.live("curves")
+    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+    count = inflections(batch, plane_normals(state, curves), 0.2)[0].tolist()
+    return dict(
+        zip((str(state.curves.key[curve]) for curve in curves.tolist()), count, strict=True)
+    )

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from assoc_hull.edit.crossings.adopted_points import mend_gaps
+from assoc_hull.edit.crossings.adopted_points import insert_defining_point, mend_gaps
 from assoc_hull.graph.journal import Journal
 from assoc_hull.hull import Hull
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.make_objects import Maker
+from assoc_hull.model.make_objects import Maker, PointSpec
 from assoc_hull.model.tables import HullState
 
 
@@ -51,4 +51,28 @@ def test_the_curve_of_higher_rank_gives_way_unless_it_is_held(state: HullState, 
     assert curves.tolist() == [curve]
     assert np.isin(moved, own).all()
     assert (state.rows.xyz[own] == place).all(axis=1).any()
+    journal.undo()
+
+
+def test_a_lone_adopted_point_is_moved_instead_of_getting_one_beside_it(state: HullState) -> None:
+    """Two points 0.2 m apart on a curve whose others are metres away would bend it both ways."""
+    journal = Journal()
+    maker = Maker(state, journal)
+    for row in np.flatnonzero(state.rows.alive.data & (state.rows.role.data == Role.WATCHED)):
+        curve = int(state.rows.curve[row, 1])
+        place = state.rows.spot[row, 0]
+        own = state.curves.rows[curve]
+        away = np.sort(np.linalg.norm(state.rows.xyz[own] - place, axis=1))
+        if away[0] > 1.0:
+            break
+    else:
+        pytest.fail("no crossing with room about it")
+    beside = place + 0.2 * np.array([1.0, 0.0, 0.0])
+    point = int(maker.points([PointSpec(curve, beside, Sort.ADOPTED)])[0])
+    insert_defining_point(maker, curve, point)
+    count = len(state.curves.rows[curve])
+    _, moved = mend_gaps(maker, np.array([row]))
+    assert moved.tolist() == [point]
+    assert len(state.curves.rows[curve]) == count
+    assert state.rows.xyz[point].tolist() == state.rows.spot[row, 0].tolist()
     journal.undo()

@@ -5,6 +5,9 @@ from __future__ import annotations
 import attrs
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 from scipy.interpolate import CubicSpline, PPoly
 
 from assoc_hull.analysis.fairness.classical_pieces import (
@@ -17,6 +20,7 @@ from assoc_hull.geometry.classical.chord_spline import ChordSpline
 from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from assoc_hull.geometry.classical.elastica import fit_elastica
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.fairness.combs import DEAD_BAND, signs_without_waves
 from assoc_hull.geometry.fairness.criteria import FairnessRecord, OffsetDeviations, criteria
 from assoc_hull.geometry.splines.curve_pieces import (
     GraphPieces,
@@ -268,3 +272,26 @@ def test_offsets_that_are_none_are_refused(
     with pytest.raises(GeometryError) as refused:
         OffsetDeviations.measured(pieces, points, tolerances)  # type: ignore[arg-type]
     assert str(refused.value).startswith(message)
+
+
+@given(
+    arrays(np.float64, st.integers(0, 30), elements=st.floats(-1.0, 1.0)),
+    st.integers(0, 4), st.integers(1, 3),
+)  # fmt: skip
+def test_without_small_waves_no_more_signs_change_than_are_left(
+    value: FloatArray, most: int, parts: int
+) -> None:
+    """What changes no more often keeps its signs; curves of one line are counted together."""
+    curve = np.sort(np.arange(len(value)) % parts)
+    found = signs_without_waves(value, np.abs(value), curve, most)
+
+    def changes(sign: FloatArray) -> int:
+        some = sign != 0.0
+        kept, owner = sign[some], curve[some]
+        return int(((kept[1:] != kept[:-1]) & (owner[1:] == owner[:-1])).sum())
+
+    own = np.where(np.abs(value) > DEAD_BAND, np.sign(value), 0.0)
+    assert changes(found.astype(np.float64)) <= most
+    if changes(own) <= most:
+        beyond = own != 0.0
+        assert (found[beyond] == own[beyond]).all()
