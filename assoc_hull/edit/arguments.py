@@ -92,9 +92,9 @@ def box_corners(box: object) -> tuple[Corner, Corner]:
         for corner, bound in zip(corners, bounds, strict=True):
             if bound is not None:
                 corner[AXES.index(axis)] = number(bound, axis, "in rule")
-        low, high = (corner[AXES.index(axis)] for corner in corners)
-        if low is not None and high is not None and low >= high:
-            what = f"the box runs from {axis} {low:g} to {high:g} m"
+        least, most = (corner[AXES.index(axis)] for corner in corners)
+        if least is not None and most is not None and least >= most:
+            what = f"the box runs from {axis} {least:g} to {most:g} m"
             raise BadInputError(what, "in rule", "give the lower bound first")
     low, high = ((each[0], each[1], each[2]) for each in corners)
     return low, high

@@ -70,7 +70,7 @@ def rule(edit: Transaction, a: str, b: str, where: Sequence[Ruling]) -> None:
     """
     state = edit.state
     lines = [named_lines(state, name) for name in (a, b)]
-    both = np.intersect1d(*lines)
+    both = np.intersect1d(lines[0], lines[1])
     if a != b and len(both):
         what = f"{state.lines.name[int(both[0])]} is of both, {a!r} and {b!r}"
         raise BadInputError(what, "in rule", "name two that share no line")

@@ -128,8 +128,8 @@ def definition(state: HullState) -> dict[str, object]:
         line, how many crossings the pair ever had), ``retired`` (keys that must not come
         back) and, of a hull that has any, ``features``, ``rulings`` (which lines rule where),
         ``definitions`` (by form parameters) and ``generated`` (curves that come from these).
-        What has its default is left out: an open deck, notes, labels, free ends, zero directions, smooth passage, overrides, zero
-        signs.
+        What has its default is left out: an open deck, notes, labels,
+        free ends, zero directions, smooth passage, overrides, zero signs.
         ``meets`` of a curve lists, per associated line and along the curve, the sign of
         each intersection and the crossing it is, or None. ``value`` of a point (x, y, z; m)
         stands only where nothing else gives it; a ``riding`` point has ``anchors``,
