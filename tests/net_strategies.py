@@ -53,7 +53,8 @@ POOL = len(_SEEDS)
 """Number of nets kept ready."""
 
 SHAPES = (
-    "move", "move", "move_by", "pull", "reshape", "insert", "delete", "set_end", "set_kind",
+    "move", "move", "move_by", "pull", "reshape", "insert", "lead", "delete", "set_end",
+    "set_kind",
 )  # fmt: skip
 STRUCTURE = (
     "add_line", "remove_line", "shift_line", "set_role", "set_role", "renew_roles", "pin", "unpin",
@@ -216,7 +217,7 @@ def _move(hull: ah.Hull, edit: Edit, act: Act) -> None:
     point = _pick([each for each in points if each.free and each.driver is None], act.which)
     if point is not None:
         shift = {axis: float(getattr(point, axis)) + act.amount for axis in point.free}
-        edit.move(point, **shift)
+        edit.move(point, lead=False, **shift)
 
 
 def _move_by(hull: ah.Hull, edit: Edit, act: Act) -> None:
@@ -225,7 +226,7 @@ def _move_by(hull: ah.Hull, edit: Edit, act: Act) -> None:
     chosen = free[act.which % max(len(free), 1) :][:3]
     by = [[act.amount * (axis in each.free) for axis in "xyz"] for each in chosen]
     if chosen:
-        edit.move(chosen, by=by)
+        edit.move(chosen, by=by, lead=False)
 
 
 def _pull(hull: ah.Hull, edit: Edit, act: Act) -> None:
@@ -290,7 +291,14 @@ def _insert(hull: ah.Hull, edit: Edit, act: Act) -> None:
     curve = _pick(_curves(hull), act.which)
     assert curve is not None
     place = curve.at((0.1 + 0.8 * (act.other % 100) / 100.0) * curve.span)
-    edit.insert(curve, place + act.amount * _free_way(curve))
+    edit.insert(curve, place + act.amount * _free_way(curve), lead=False)
+
+
+def _lead(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    curve = _pick(_curves(hull), act.which)
+    assert curve is not None
+    place = curve.at((0.1 + 0.8 * (act.other % 100) / 100.0) * curve.span)
+    edit.lead(curve, [place + act.amount * _free_way(curve)])
 
 
 def _delete(hull: ah.Hull, edit: Edit, act: Act) -> None:
@@ -380,6 +388,7 @@ _OPERATIONS = {
     "pull": _pull,
     "reshape": _reshape,
     "insert": _insert,
+    "lead": _lead,
     "delete": _delete,
     "set_end": _set_end,
     "set_kind": _set_kind,

@@ -21,6 +21,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from assoc_hull.cli.problems import UsageError
+from assoc_hull.edit.recording import WRITTEN_OUT
 from assoc_hull.edit.script import operations
 
 __all__ = ["is_operation", "typed_edit", "unknown_edit"]
@@ -82,7 +83,9 @@ def typed_edit(operation: str, words: Sequence[str]) -> Mapping[str, object]:
         if name in given:
             raise UsageError(f"{name!r} of {operation} is given twice")
         given[name] = _several(text) if name == "points" else _value(text)
-    return {"op": operation, **given}
+    # What a file of an older version leaves out means another thing than what is typed now.
+    always = {name: takes[name].default for name in WRITTEN_OUT if name in takes}
+    return {"op": operation, **always, **given}
 
 
 def _by_place(each: inspect.Parameter) -> bool:

@@ -7,7 +7,7 @@ class, and a line in the table of `assoc_hull.edit.update`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from copy import copy
 from typing import Protocol, TypeVar, cast
 
@@ -74,6 +74,15 @@ class Modification:
         """Give points (k,) that it puts to given places, and these, (k, 3), m."""
         return ()
 
+    @property
+    def asked_for(self) -> int:
+        """How many things it was asked for so far."""
+        return 0
+
+    def reached(self, state: HullState) -> Sequence[IntArray]:
+        """Give the nodes (k,) that each of these things may set, in the order of asking."""
+        return ()
+
     def plan(self, work: Work) -> None:
         """Write the structure that it needs; places that were asked for are not there yet."""
 
@@ -127,6 +136,13 @@ class TriedNumbers(Protocol):
 
 class LateAnswer(Protocol):
     """What an edit asks for that waits until all else has been carried out."""
+
+    @property
+    def idle(self) -> bool:
+        """Whether all that is asked for is so already."""
+
+    def reached(self) -> Iterable[tuple[str, IntArray]]:
+        """Give in words each thing that is asked for, and the nodes (k,) that it may set."""
 
     def carry_out(self) -> None:
         """Carry it out, as stages of the edit."""
@@ -221,7 +237,8 @@ class Pending:
     @property
     def empty(self) -> bool:
         """Whether no modification is there that takes more than places and recipes."""
-        return self.answer is None and all(each.idle for each in self.modifications.values())
+        late = self.answer is None or self.answer.idle
+        return late and all(each.idle for each in self.modifications.values())
 
     @property
     def displaces(self) -> bool:

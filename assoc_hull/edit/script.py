@@ -16,7 +16,7 @@ import attrs
 
 from assoc_hull.arguments import shown, shown_name
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.recording import Settings
+from assoc_hull.edit.recording import WRITTEN_OUT, Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.step import Step
@@ -74,6 +74,9 @@ def _modify(edit: Edit, change: object, where: str) -> None:
     if not isinstance(name, str) or name not in known:
         raise UnknownNameError("modification", shown_name(name), tuple(known))
     method, takes = getattr(edit, name), known[name]
+    arguments |= {
+        each: False for each in WRITTEN_OUT if each in takes.parameters and each not in arguments
+    }
     any_name = any(each.kind is each.VAR_KEYWORD for each in takes.parameters.values())
     for given in arguments:
         if given not in takes.parameters and not any_name:

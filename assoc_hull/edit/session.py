@@ -216,7 +216,7 @@ class Edit:
 
     def _note(self, change: dict[str, Said]) -> None:
         """Keep a modification that was asked for, as data."""
-        self._held.script.append(change)
+        self._held.note(change)
 
     @property
     def _transaction(self) -> Transaction:
@@ -246,8 +246,12 @@ class Edit:
         y: float | None = None,
         z: float | None = None,
         by: ArrayLike | None = None,
+        lead: bool = True,
     ) -> None:
         """Move a point along its freedom to a place, or points by vectors.
+
+        A placed or an adopted point leads its line, see `lead`, but for one on a flat, the profile
+        or a boundary curve; a crossing is pinned: its two lines take it along.
 
         Parameters
         ----------
@@ -258,6 +262,8 @@ class Edit:
         by : (3,) or (k, 3) or None, m
             Instead: the vector from where the points were before the edit, one for all or one
             for each. Along coordinates in which a point is not free it must be 0.
+        lead : bool
+            False: placed and adopted points are pinned, too.
 
         Raises
         ------
@@ -291,15 +297,25 @@ class Edit:
             remedy = "give one point and its coordinates, or points and by=(x, y, z)"
             raise BadInputError(what, "in move", remedy)
         rows = [self._given.point(each)[0] for each in point]
-        if by is None:
-            _points.move(self._transaction, rows[0], given)
-        else:
-            _points.move_by(self._transaction, rows, places(by, "by", "in move"))
+        put = _lead.put if flag(lead, "lead", "in move") else _lead.put_pinned
+        with self._transaction.whole() as held:
+            if by is None:
+                _points.move(held, rows[0], given, put)
+            else:
+                _points.move_by(held, rows, places(by, "by", "in move"), put)
 
     @recorded
-    def insert(self, curve: Curve | str, place: ArrayLike) -> Point:
-        """Insert a placed point at (x, y, z), m; it is never moved by an update."""
-        row = _points.insert(self._transaction, self._given.curve(curve), place)
+    def insert(self, curve: Curve | str, place: ArrayLike, *, lead: bool = True) -> Point:
+        """Insert a placed point at (x, y, z), m; it is never moved by an update.
+
+        A place off the curve, by more than 1e-5 Lpp, leads the line there, see `lead`; in the plane
+        of a crossing line it is asked of that crossing, which is given. On boundary curves, flats
+        and the profile, and with ``lead=False``, the point is pinned: the curve bends between its
+        neighbours.
+        """
+        number, leads = self._given.curve(curve), flag(lead, "lead", "in insert")
+        with self._transaction.whole() as held:
+            row = (_lead.insert if leads else _lead.insert_pinned)(held, number, place)
         return Point.of(self._tables, row)
 
     @recorded

@@ -71,6 +71,7 @@ if TYPE_CHECKING:
     from assoc_hull.creation.creation_report import CreationReport
     from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
     from assoc_hull.edit.checks.finding import Finding
+    from assoc_hull.edit.dirty_objects import Dirty
     from assoc_hull.edit.document import Changed, Label
     from assoc_hull.edit.drag import Drag, DragWay
     from assoc_hull.edit.explain.causes import Thing, Why
@@ -557,17 +558,47 @@ class Hull:
         """Give what an address names; see `assoc_hull.model.address`."""
         return handle(self.state, address)
 
-    def why(self, thing: Thing | FormDefinition | str) -> Why:
-        """Explain the last change of a point, curve, definition, or a line's first curve.
+    @property
+    def dirty(self) -> Dirty:
+        """What the edit that is open here has reached so far, by address, and because of what.
+
+        Nothing where none is open. `Curve.dirty` and `Point.dirty` tell the same of one object; see
+        `assoc_hull.edit.dirty_objects.Dirty`.
+        """
+        from assoc_hull.edit.dirty_objects import Dirty
+
+        return Dirty(self.document.state, self.document.state.dirty_here())
+
+    def why(
+        self,
+        thing: Thing | FormDefinition | str,
+        *,
+        step: int | None = None,
+        least: float | None = None,
+    ) -> Why:
+        """Explain a change of a point, curve, definition, or a line's first curve.
+
+        Parameters
+        ----------
+        thing : handle, address or definition
+            The object.
+        step : int or None
+            The number of an edit of the history, -1 for the last; None for the last that reached
+            the object.
+        least : float or None, m
+            Causes that moved less are left out, and counted. None: where an edit set points that
+            nobody named, as a pull does, those below a hundredth of the largest.
 
         Raises
         ------
         UnknownNameError, ForeignPointError, BadInputError
-            Nothing that this hull has, or a group.
+            Nothing that this hull has, or a group; an edit that the history does not have.
         """
         from assoc_hull.edit.explain.causes import node_of, why
 
-        return why(self.document, node_of(self.state, thing))
+        if least is not None:
+            not_negative(least, "least", "in why", unit="m")
+        return why(self.document, node_of(self.state, thing), step, least)
 
     def check(self, notes: bool = False) -> tuple[Finding, ...]:
         """Give what is wrong with the hull; empty if nothing is."""

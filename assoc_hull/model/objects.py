@@ -29,6 +29,7 @@ from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import curvature, evaluate, sample
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.address import AddressBook, ResolvedAddress, resolve_address
+from assoc_hull.model.dirty_cause import DirtyCause, cause_of
 from assoc_hull.model.feature_geometry import line_numbers
 from assoc_hull.model.features import Feature, Place
 from assoc_hull.model.gaps import tangents
@@ -46,6 +47,7 @@ from assoc_hull.model.links import (
     points_on,
 )
 from assoc_hull.model.named_mapping import NamedMapping
+from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
 __all__ = [
@@ -165,6 +167,11 @@ def is_in(handle: Handle, tables: HullState) -> bool:
     if number >= table.count or not table.alive[number]:
         return False
     return handle._table == "groups" or bool(table.key[number] == handle.id)
+
+
+def _dirty(handle: Handle, node: int) -> DirtyCause | None:
+    """Give because of what a node of whoever edits here is dirty."""
+    return cause_of(handle.home.seen_here(), handle.home.dirty_here(), node)
 
 
 # --------------------------------------------------------------------------------------
@@ -317,6 +324,11 @@ class Point(Handle):
         return State(int(tables.rows.state[row])).name.lower()
 
     @property
+    def dirty(self) -> DirtyCause | None:
+        """Because of what it is dirty: reached by what the open edit asked for; None if clean."""
+        return _dirty(self, Node.point(self.number))
+
+    @property
     def revision(self) -> int:
         """Rises by one each time it really moved."""
         tables, row = self._here()
@@ -397,6 +409,11 @@ class Crossing(Handle):
             return None
         value = float(getattr(tables.rows, column).data[row])
         return value if np.isfinite(value) else None
+
+    @property
+    def dirty(self) -> DirtyCause | None:
+        """Because of what it is dirty: reached by what the open edit asked for; None if clean."""
+        return _dirty(self, Node.point(self.number))
 
     @property
     def state(self) -> str:
@@ -557,6 +574,11 @@ class Curve(Handle):
         return State(int(tables.curves.state[row])).name.lower()
 
     @property
+    def dirty(self) -> DirtyCause | None:
+        """Because of what it is dirty: reached by what the open edit asked for; None if clean."""
+        return _dirty(self, Node.curve(self.number))
+
+    @property
     def revision(self) -> int:
         """Rises by one each time its geometry really changed."""
         tables, row = self._here()
@@ -632,6 +654,12 @@ class Line(Handle):
         """The points of all its curves, curve by curve."""
         tables, curves = self._curves()
         return tuple(point for curve in curves for point in _points_along(tables, curve))
+
+    @property
+    def dirty(self) -> DirtyCause | None:
+        """Because of what its first dirty curve is that; None if all are clean."""
+        causes = (curve.dirty for curve in self.curves)
+        return next((each for each in causes if each is not None), None)
 
     def meet(self, plane: Plane | tuple[ArrayLike, float]) -> FloatArray:
         """Give the places where its curves pass a plane, (k, 3), m; frozen.

@@ -36,6 +36,7 @@ from assoc_hull.graph.table import (
     writes_begun,
 )
 from assoc_hull.model.births import Births
+from assoc_hull.model.dirty_nodes import CLEAN, DirtyNodes
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.keys import KeyColumn, LabelColumn, keys, labels
@@ -68,7 +69,7 @@ __all__ = [
 
 T = TypeVar("T")
 
-_OF_THIS_PROCESS = ("number", "_live", "_published", "_written_here", "_looked")
+_OF_THIS_PROCESS = ("number", "_live", "_published", "_written_here", "_looked", "_reached")
 
 _GATE = Gate()
 """Held for the moment in which a state is published, or one is taken."""
@@ -422,6 +423,7 @@ class HullState:
     _published: HullState | None = attrs.field(default=None, init=False, repr=False)
     _written_here: Callable[[], bool] | None = attrs.field(default=None, init=False, repr=False)
     _looked: int = attrs.field(default=-1, init=False, repr=False)
+    _reached: Callable[[], DirtyNodes] | None = attrs.field(default=None, init=False, repr=False)
 
     def __attrs_post_init__(self) -> None:
         if not self.settings.count:
@@ -469,6 +471,15 @@ class HullState:
         mine = self._written_here
         return self if mine is not None and mine() else self.published()
 
+    def dirty_here(self) -> DirtyNodes:
+        """Give what is dirty to whoever writes these tables; to all others nothing is."""
+        mine, reached = self._written_here, self._reached
+        return reached() if reached is not None and mine is not None and mine() else CLEAN
+
+    def tell_dirty(self, reached: Callable[[], DirtyNodes]) -> None:
+        """Ask this for what is dirty, until writing ends."""
+        self._reached = reached
+
     def begin_writing(self, written_here: Callable[[], bool]) -> None:
         """Keep what is published, for all but those of whom `written_here` is true."""
         _GATE.alone(partial(self._begin_writing, written_here))
@@ -482,7 +493,7 @@ class HullState:
         _GATE.alone(self._end_writing)
 
     def _end_writing(self) -> None:
-        self._written_here = None
+        self._written_here = self._reached = None
         self._published_now()
 
     def snapshot(self) -> HullState:
@@ -508,6 +519,7 @@ class HullState:
             dict(self.revision_curve),
         )
         found._live, found._published, found._written_here, found._looked = live, None, None, -1
+        found._reached = None
         found.memory = Derived()
         # What was made of tables that may be written to is not handed on: it may look at them.
         if (source := self if self._live is not None else before) is not None:
@@ -523,7 +535,7 @@ class HullState:
         for name, value in state.items():
             setattr(self, name, value)
         self._live, self._published, self._written_here, self._looked = None, None, None, -1
-        self.number = 0
+        self._reached, self.number = None, 0
 
     def derived(
         self, key: Key, depends_on: tuple[object, ...], make: Callable[[], T], most: int = 64

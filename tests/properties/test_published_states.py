@@ -156,7 +156,7 @@ def test_inside_an_edit_the_hull_reads_as_published() -> None:
 def insert_and_fail(hull: ah.Hull, made: list[ah.Point], before: object, count: int) -> None:
     """Insert a point, look at what is seen of it, and ask for what is refused."""
     with hull.edit("failing") as edit:
-        point = edit.insert("ST 7", (35.0, 2.2, 1.3))
+        point = edit.insert("ST 7", (35.0, 2.2, 1.3), lead=False)
         made.append(point)
         assert point.alive
         assert point.x == 35.0
@@ -186,7 +186,7 @@ def test_what_an_edit_has_deleted_is_not_given_to_it_again() -> None:
     """A handle that the published hull still knows is one on nothing in this edit."""
     hull = ah.examples.wigley()
     with hull.edit("insert") as edit:
-        point = edit.insert("ST 7", (35.0, 2.2, 1.3))
+        point = edit.insert("ST 7", (35.0, 2.2, 1.3), lead=False)
     with hull.edit("delete") as edit:
         edit.delete(point)
         assert point.alive

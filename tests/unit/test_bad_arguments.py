@@ -112,7 +112,7 @@ HULL: dict[str, Given] = {
     "snapshot": {},
     "redo": {"n": 0},
     "find": {"address": POINT},
-    "why": {"thing": POINT},
+    "why": {"thing": POINT, "step": None, "least": 1e-4},
     "check": {"notes": False},
     "verify": {"relative": 0.0},
     "graph": {"around": POINT, "up": 1, "down": 1, "only": "two-way", "edit": None},
@@ -131,8 +131,8 @@ HULL: dict[str, Given] = {
 }  # fmt: skip
 EDIT: dict[str, Given] = {
     "fair": FAIR,
-    "move": {"point": POINT, "x": None, "y": 3.0, "z": None, "by": None},
-    "insert": {"curve": LINE, "place": PLACE},
+    "move": {"point": POINT, "x": None, "y": 3.0, "z": None, "by": None, "lead": True},
+    "insert": {"curve": LINE, "place": PLACE, "lead": True},
     "delete": {"point": POINT},
     "set_kind": {"point": POINT, "kind": "tangent", "direction": (1.0, 0.0, 0.0)},
     "pin": {"point": POINT},

@@ -91,6 +91,20 @@ def test_a_file_called_like_a_modification_is_a_file(
     assert ah.open(file).points["WL 2.5 x ST 5"].y == 2.41
 
 
+@pytest.mark.parametrize("words", [(), ("lead=no",)], ids=["leads", "pinned"])
+def test_a_typed_point_beside_its_line_leads_as_in_python(
+    file: Path, tmp_path: Path, words: tuple[str, ...]
+) -> None:
+    """A file that does not say so pins it; what is typed is new."""
+    x, y, z = ah.open(file).lines["WL 2.5"].curves[0].at(37.0).tolist()
+    made = tmp_path / "made.hull"
+    place = f"{x},{y + 0.01},{z}"
+    assert main(["edit", str(file), "insert", "WL 2.5", place, *words, "-o", str(made)]) == 0
+    (step,) = ah.open(made).document.history
+    assert step.script.edits[0]["lead"] is not bool(words)
+    assert bool(step.report.led) is not bool(words)
+
+
 def test_words_that_are_no_numbers_are_names() -> None:
     """A name with commas, or an equals sign, is taken as it stands."""
     assert typed_edit("rename", ["WL 2.5", "a, b"])["name"] == "a, b"
