@@ -37,7 +37,7 @@ from benchmarks.clock import Figure
 from benchmarks.fair_edits import sign_changes
 from benchmarks.ships import duisburg_test_case
 
-__all__ = ["Tally", "figures", "main", "measure"]
+__all__ = ["SHIPS", "Tally", "figures", "intervals", "main", "measure"]
 
 SHIPS: dict[str, Callable[[], ah.Hull | None]] = {
     "carrier": ah.examples.bulk_carrier_207k,
@@ -155,7 +155,7 @@ def measure(hull: ah.Hull, count: int, seed: int = 1) -> Tally:
     """Lead lines, each on the hull as it was."""
     state, rng, found = hull.document.state, np.random.default_rng(seed), Tally()
     first = hull.fingerprint
-    drawn = {family: list(_intervals(state, family)) for family in _FAMILIES}
+    drawn = {family: list(intervals(state, family)) for family in _FAMILIES}
     families = [family for family in _FAMILIES if drawn[family]]
     last: dict[str, tuple[int, FloatArray]] = {}
     for turn in range(count):
@@ -224,7 +224,7 @@ def _edit_from_crossing_lines(
     hull.undo(len(hull.history) - done)
 
 
-def _intervals(state: HullState, family: str) -> Iterator[tuple[int, float]]:
+def intervals(state: HullState, family: str) -> Iterator[tuple[int, float]]:
     """Give the curves of a family, and the middles between two free points of each."""
     free = fairable_rows(state)
     free = free[~level_with_flats(state, free, hull_normals(state)[free])]

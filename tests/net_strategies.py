@@ -373,10 +373,13 @@ def _associate(hull: ah.Hull, edit: Edit, act: Act) -> None:
     link = _pick(links, act.which)
     if link is None:
         return
-    if act.other % 3 == 0:
+    way = act.other % 4
+    if way == 0:
         edit.dissociate(link.a, link.b)
+    elif way == 3:
+        edit.associate(link.b, link.a, two_way=False)
     else:
-        edit.associate(link.a, link.b, two_way=act.other % 3 == 1)
+        edit.associate(link.a, link.b, two_way=way == 1)
 
 
 _OPERATIONS = {

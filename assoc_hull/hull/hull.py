@@ -31,7 +31,7 @@ from assoc_hull.edit.session import Edit, join_edit, open_edit
 from assoc_hull.edit.write_lock import PATIENCE
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.kinds import FAMILIES
+from assoc_hull.model.kinds import FAMILIES, OWN
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.named_mapping import NamedMapping
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point, Points, handle
@@ -160,12 +160,12 @@ class Hull:
 
     @property
     def groups(self) -> Mapping[str, Group]:
-        """The groups of lines by name, in the order of the ranks."""
+        """The groups of lines by name, in the order of the ranks; last, those of one's own."""
         state = self.state
         table = state.groups
+        rank = {name: family.rank for name, family in FAMILIES.items()} | {OWN: len(FAMILIES)}
         order = sorted(
-            state.live("groups").tolist(),
-            key=lambda i: (FAMILIES[table.family[i]].rank, table.name[i]),
+            state.live("groups").tolist(), key=lambda i: (rank[table.family[i]], table.name[i])
         )
         groups = {str(table.name[i]): Group.of(state, i) for i in order}
         return NamedMapping("group", groups, spoken=True)

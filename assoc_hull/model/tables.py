@@ -47,6 +47,7 @@ __all__ = [
     "DECKS",
     "TABLES",
     "Association",
+    "Corner",
     "CurveIntersections",
     "Curves",
     "Ends",
@@ -60,6 +61,7 @@ __all__ = [
     "Particulars",
     "Produced",
     "Rows",
+    "Ruling",
     "copy_into",
     "copy_state",
     "state_of",
@@ -144,6 +146,33 @@ class Association:
     a: str = attrs.field(validator=checked(word, "in an association"))
     b: str = attrs.field(validator=checked(word, "in an association"))
     two_way: bool = attrs.field(default=True, validator=checked(flag, "in an association"))
+
+
+Corner = tuple[float | None, float | None, float | None]
+
+
+@attrs.frozen
+class Ruling:
+    """Within a box, lines of `a` generate points on those of `b`, and back if `two_way`.
+
+    A crossing follows the first ruling that holds it, else the association of its groups. Of two
+    boxes that share a border the lower one holds what lies on it.
+
+    Attributes
+    ----------
+    a, b : str
+        Names of groups, or keys of lines.
+    two_way : bool
+        Whether `b` generates on `a` as well.
+    low, high : tuple of three float or None, m
+        Corners of the box; None where it has no bound.
+    """
+
+    a: str = attrs.field(validator=checked(word, "in a ruling"))
+    b: str = attrs.field(validator=checked(word, "in a ruling"))
+    two_way: bool = attrs.field(default=True, validator=checked(flag, "in a ruling"))
+    low: Corner = (None, None, None)
+    high: Corner = (None, None, None)
 
 
 def _end_kinds(_: object, __: object, value: object) -> None:
@@ -235,7 +264,9 @@ class Rows(Table):
     the line b is always made through the crossing. ``override``: the role by the designer's word.
     ``gap`` and ``limit`` are of watched crossings. An adopted point rides from ``base`` with the
     points ``anchor``, which lay at ``anchor_from`` then; the second one counts ``anchor_weight``.
-    ``faired``: how far fairing has taken a point from the value that was given for it.
+    ``faired``: how far fairing has taken a point from the value that was given for it. A crossing
+    that an association was switched at has the role of before as ``first_role``; ``stands_for`` of
+    a stand-in is the key of its crossing, which may be dead.
     """
 
     key: KeyColumn = keys()
@@ -262,7 +293,9 @@ class Rows(Table):
     base: VectorColumn[np.float64] = vectors(np.float64, 3, sparse=True)
     faired: VectorColumn[np.float64] = vectors(np.float64, 3, sparse=True)
     state: NumberColumn[np.int8] = numbers(np.int8)
+    first_role: NumberColumn[np.int8] = numbers(np.int8, -1, sparse=True)
     label: LabelColumn = labels()
+    stands_for: LabelColumn = labels()
 
 
 @attrs.frozen(eq=False)
@@ -298,11 +331,12 @@ class Lines(Table):
 
 @attrs.frozen(eq=False)
 class Groups(Table):
-    """Groups of lines."""
+    """Groups of lines; ``members`` of a designer's own are keys of lines and names of groups."""
 
     name: ValueColumn[str] = values("")
     family: ValueColumn[str] = values("")
     alive: NumberColumn[np.bool_] = numbers(np.bool_)
+    members: ValueColumn[tuple[str, ...]] = values(())
 
 
 @attrs.frozen(eq=False)
@@ -334,6 +368,7 @@ class HullSettings(Table):
     """What belongs to the hull as a whole; one row."""
 
     associations: ValueColumn[tuple[Association, ...]] = values(())
+    rulings: ValueColumn[tuple[Ruling, ...]] = values(())
     births: ValueColumn[Births] = values_given()
     failed: ValueColumn[tuple[int, ...]] = values(())
     particulars: ValueColumn[Particulars] = values_given()
@@ -517,6 +552,11 @@ class HullState:
     def associations(self) -> tuple[Association, ...]:
         """The declared associations."""
         return self.settings.associations[0]
+
+    @property
+    def rulings(self) -> tuple[Ruling, ...]:
+        """Which lines rule where, the statement that was made last first."""
+        return self.settings.rulings[0]
 
     @property
     def features(self) -> tuple[Feature, ...]:

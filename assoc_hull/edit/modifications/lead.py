@@ -27,7 +27,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.links import free_axes
+from assoc_hull.model.links import crossing_ways, free_axes
 from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.tables import HullState
 from assoc_hull.tolerance import IN_PLANE
@@ -240,6 +240,7 @@ class _Chooser:
             curve, foot = self._foot(xyz)
             row = self._own(curve, foot, xyz)
             if row is None:
+                self._refuse_driven(curve, foot)
                 self._ask(curve, self._new(curve, foot), xyz)
                 return
         else:
@@ -248,8 +249,13 @@ class _Chooser:
         if table.sort[row] == Sort.CROSSING:
             lines = [self.state.line_of(each) for each in table.curve[row].tolist()]
             xyz = checked_in_planes(self.state, lines, xyz, self.where)
+            crossing = str(table.key[row])
             if table.role[row] != Role.SHARED:
                 row = self._at_crossing(curve, row)
+            if table.stands_for[row] == crossing:
+                # It stays what it is, as the crossing would.
+                self._ask(curve, row, xyz)
+                return
         if table.sort[row] == Sort.ADOPTED:
             pin(self.edit, row)
         self._ask(curve, row, xyz)
@@ -340,6 +346,21 @@ class _Chooser:
             return False
         away = self.state.lines.normal[other] @ xyz - self.state.lines.offset[other]
         return bool(abs(away) <= IN_PLANE)
+
+    def _refuse_driven(self, curve: int, foot: FloatArray) -> None:
+        """Refuse a new place between two crossings that one-way associations drive."""
+        state, rows = self.state, self.state.curves.rows[curve]
+        at = closest_points(state.spline(curve), 0, foot[None])[0][0]
+        after = int(np.searchsorted(state.spline(curve).knot, at))
+        beside: IntArray = rows[max(after - 1, 0) : after + 1]
+        drivers = state.rows.driver[beside]
+        if ((drivers < 0) | (drivers == curve)).any() or state.rows.contact[beside].any():
+            return
+        if not crossing_ways(state, beside).all(axis=1).any():
+            title = str(state.lines.name[state.line_of(int(drivers[0]))])
+            ways = f"lead {title}, or associate the two both ways (edit.associate)"
+            raise PointRoleError(f"{self.name} beside {address(state, int(beside[0]))}", "driven",
+                                 title, ways)  # fmt: skip
 
     def _at_crossing(self, curve: int, row: int) -> int:
         """Give a point of the curve where a crossing lies that it drives, or that is watched."""
