@@ -65,16 +65,29 @@ _FAILS = (TypeError, ValueError, OverflowError)
 _TRUTH = (bool, np.bool_)
 
 
+class _PlainRepr(reprlib.Repr):
+    """Short texts of values, in which numbers of numpy stand as Python's do."""
+
+    def repr1(self, x: object, level: int) -> str:
+        return super().repr1(x.item() if isinstance(x, np.generic) else x, level)
+
+
+_SHORT = _PlainRepr()
+
+
 def shown(value: object) -> str:
     """Give a value as it may stand in a message: in one line, and short.
 
     Examples
     --------
+    >>> import numpy as np
     >>> from assoc_hull.arguments import shown
     >>> shown(list(range(100)))
     '[0, 1, 2, 3, 4, 5, ...]'
+    >>> shown((np.float64(1.5), np.int64(2)))
+    '(1.5, 2)'
     """
-    text = " ".join(reprlib.repr(value).split())
+    text = " ".join(_SHORT.repr(value).split())
     return text if len(text) <= _LONGEST else text[:_LONGEST] + " ..."
 
 

@@ -17,7 +17,7 @@ NAMES = (
     "long_session", "hydrostatics", "variation_methods", "variants", "form_curves",
     "created_hulls", "biarcs", "production_arcs", "classical_splines", "conformal_sections",
     "curvature_regions", "surface_fit", "cad_files", "cad_slicing", "closed_mesh", "doctor",
-    "fairing", "fair_edits", "leads", "page",
+    "fairing", "fair_edits", "leads", "switches", "page",
 )  # fmt: skip
 
 

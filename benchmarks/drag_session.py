@@ -86,6 +86,6 @@ def _update(hull: ah.Hull, point: str, how: str, asked: dict[str, float]) -> Non
             if how == "pull":
                 edit.pull(point, asked["d"])
             else:
-                edit.move(point, **asked)
+                edit.move(point, lead=False, **asked)
     except AssocHullError:
         pass

@@ -20,7 +20,7 @@ from assoc_hull.hull.sources import Examples, examples
 from assoc_hull.io.slicing.net import SliceReport
 from tests.cases.dtc import read_dtc_with_report
 from tests.taken_back import taken_back
-from tests.twins import made_once, packed, twin
+from tests.twins import let_examples_give_twins, made_once, packed, twin
 
 # No deadline and no complaint about slow draws: the machine may be busy with other work.
 settings.register_profile(
@@ -70,7 +70,11 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_collection_finish() -> None:
-    """Take tests and modules out of what the garbage collector goes through, thousands of times."""
+    """Make hulls once, and take tests and modules out of what the garbage collector goes through.
+
+    Both would be done thousands of times.
+    """
+    let_examples_give_twins()
     gc.collect()
     gc.freeze()
     gc.set_threshold(20_000, 20, 20)

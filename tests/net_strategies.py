@@ -1,7 +1,7 @@
 """Small nets kept ready, and random edits of every kind, for the properties of the update.
 
-A net takes half a second to adopt and milliseconds to read, so each is adopted once per
-process and read anew for every example.
+A net takes half a second to adopt, so each is adopted once per process; every example gets a twin
+of what was read.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.objects import Curve, Line, Point
 from tests.strategies import Form, Net, net_of, wigley_sources
+from tests.twins import packed, twin
 
 __all__ = [
     "POOL",
@@ -52,7 +53,8 @@ POOL = len(_SEEDS)
 """Number of nets kept ready."""
 
 SHAPES = (
-    "move", "move", "move_by", "pull", "reshape", "insert", "delete", "set_end", "set_kind",
+    "move", "move", "move_by", "pull", "reshape", "insert", "lead", "delete", "set_end",
+    "set_kind",
 )  # fmt: skip
 STRUCTURE = (
     "add_line", "remove_line", "shift_line", "set_role", "set_role", "renew_roles", "pin", "unpin",
@@ -144,13 +146,15 @@ def loose(net: Net, tolerance: float) -> Net:
 
 
 @lru_cache
-def _text(number: int) -> str:
-    return dumps_hull_json(_net(_SEEDS[number]).adopt())
+def _pack(number: int) -> bytes:
+    text = dumps_hull_json(_net(_SEEDS[number]).adopt())
+    return packed(ah.Hull(read_hull_json(text)))
 
 
 def fresh(number: int) -> ah.Hull:
     """Give a hull of its own with the net of a number."""
-    return ah.Hull(read_hull_json(_text(number)))
+    found: ah.Hull = twin(_pack(number))
+    return found
 
 
 def hulls() -> SearchStrategy[ah.Hull]:
@@ -213,7 +217,7 @@ def _move(hull: ah.Hull, edit: Edit, act: Act) -> None:
     point = _pick([each for each in points if each.free and each.driver is None], act.which)
     if point is not None:
         shift = {axis: float(getattr(point, axis)) + act.amount for axis in point.free}
-        edit.move(point, **shift)
+        edit.move(point, lead=False, **shift)
 
 
 def _move_by(hull: ah.Hull, edit: Edit, act: Act) -> None:
@@ -222,7 +226,7 @@ def _move_by(hull: ah.Hull, edit: Edit, act: Act) -> None:
     chosen = free[act.which % max(len(free), 1) :][:3]
     by = [[act.amount * (axis in each.free) for axis in "xyz"] for each in chosen]
     if chosen:
-        edit.move(chosen, by=by)
+        edit.move(chosen, by=by, lead=False)
 
 
 def _pull(hull: ah.Hull, edit: Edit, act: Act) -> None:
@@ -287,7 +291,14 @@ def _insert(hull: ah.Hull, edit: Edit, act: Act) -> None:
     curve = _pick(_curves(hull), act.which)
     assert curve is not None
     place = curve.at((0.1 + 0.8 * (act.other % 100) / 100.0) * curve.span)
-    edit.insert(curve, place + act.amount * _free_way(curve))
+    edit.insert(curve, place + act.amount * _free_way(curve), lead=False)
+
+
+def _lead(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    curve = _pick(_curves(hull), act.which)
+    assert curve is not None
+    place = curve.at((0.1 + 0.8 * (act.other % 100) / 100.0) * curve.span)
+    edit.lead(curve, [place + act.amount * _free_way(curve)])
 
 
 def _delete(hull: ah.Hull, edit: Edit, act: Act) -> None:
@@ -362,10 +373,13 @@ def _associate(hull: ah.Hull, edit: Edit, act: Act) -> None:
     link = _pick(links, act.which)
     if link is None:
         return
-    if act.other % 3 == 0:
+    way = act.other % 4
+    if way == 0:
         edit.dissociate(link.a, link.b)
+    elif way == 3:
+        edit.associate(link.b, link.a, two_way=False)
     else:
-        edit.associate(link.a, link.b, two_way=act.other % 3 == 1)
+        edit.associate(link.a, link.b, two_way=way == 1)
 
 
 _OPERATIONS = {
@@ -374,6 +388,7 @@ _OPERATIONS = {
     "pull": _pull,
     "reshape": _reshape,
     "insert": _insert,
+    "lead": _lead,
     "delete": _delete,
     "set_end": _set_end,
     "set_kind": _set_kind,

@@ -11,9 +11,10 @@ MOST = {
     # what is published has look-ups of its own, for others who read it meanwhile: `model.index`
     # `model.change` tells what an edit changed: old steps of a hull in memory hold that alone
     # keys of points are texts when they are asked for, of `model.keys`
-    "a moved point": 54,
+    # a move asks `modifications.lead` whether its point leads
+    "a moved point": 55,
     # one run stands in the place of the passes; in numpy it enters what they do to loft and cut
-    "a moved point, by the program": 45,
+    "a moved point, by the program": 46,
     "a pull": 61,
     # columns are read through `graph.table`, by `column[row]`; a surface that is laid out and one
     # that is put on other lines are one thing, `net_surface`

@@ -7,6 +7,8 @@ were. What edits leave in the tables is in the twin too; the history is not.
 from __future__ import annotations
 
 import fcntl
+import functools
+import inspect
 import io
 import os
 import pickle
@@ -19,8 +21,10 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.graph.table import Column, SparseColumn
+from assoc_hull.hull.sources import Examples
+from assoc_hull.shipped import bulk_carrier_207k, series60, wigley
 
-__all__ = ["made_once", "packed", "twin"]
+__all__ = ["let_examples_give_twins", "made_once", "packed", "twin"]
 
 T = TypeVar("T")
 
@@ -94,3 +98,32 @@ def made_once(factory: pytest.TempPathFactory, name: str, make: Callable[[], T])
         made = make()
         path.write_bytes(packed(made))
         return made
+
+
+def let_examples_give_twins() -> None:
+    """Let hulls that ship be made once in this process, and give twins of them from then on.
+
+    Tests and examples ask for the Wigley hull thousands of times, and a net takes forty times as
+    long to adopt as a twin to load. Modules that are imported already keep what makes them.
+    """
+    for name, make in inspect.getmembers(Examples, inspect.isfunction):
+        if make.__annotations__["return"] == "Hull":
+            setattr(Examples, name, _remembered(make))
+    carrier = bulk_carrier_207k
+    makers = (wigley, "wigley"), (series60, "series60_net"), (carrier, "bulk_carrier_207k_net")
+    for module, name in makers:
+        setattr(module, name, _remembered(getattr(module, name)))
+
+
+def _remembered(make: Callable[..., T]) -> Callable[..., T]:
+    packs = dict[str, bytes]()
+
+    @functools.wraps(make)
+    def give(*given: object, **named: object) -> T:
+        what = repr((*(each for each in given if each is not ah.examples), sorted(named.items())))
+        if what not in packs:
+            packs[what] = packed(make(*given, **named))
+        found: T = twin(packs[what])
+        return found
+
+    return give

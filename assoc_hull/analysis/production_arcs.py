@@ -23,6 +23,7 @@ from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.plane import unit_normal
 from assoc_hull.geometry.polylines.flats import fit_plane
 from assoc_hull.geometry.splines.segments import power_coefficients
+from assoc_hull.model.kinds import OWN
 from assoc_hull.model.objects import Curve, Group, Line, handle
 from assoc_hull.model.tables import HullState
 
@@ -246,6 +247,7 @@ def curves_of(state: HullState, lines: Sequence[Lines] | Lines | None) -> list[C
         return [
             curve
             for group in state.live("groups").tolist()
+            if state.groups.family[group] != OWN
             for line in Group.of(state, group).lines.values()
             for curve in line.curves
         ]

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import sys
 import warnings
 from collections.abc import Sequence
@@ -19,6 +20,8 @@ from assoc_hull.cli.problems import explain
 from assoc_hull.errors import NotSoundError
 
 __all__ = ["main"]
+
+_LENGTH = re.compile(r"-(\d+\.?\d*|\.\d+)(mm|cm)")
 
 _BAD, _NOT_SOUND, _STOPPED, _NO_READER = 2, 3, 130, 141
 
@@ -73,10 +76,14 @@ def _run(argv: Sequence[str] | None) -> int:
 
 
 def _with_axes(words: Sequence[str]) -> list[str]:
-    """Join ``--axes`` with axes that begin with a minus, which would be taken for an option."""
+    """Keep what begins with a minus from being taken for an option: axes, lengths with a unit."""
     found: list[str] = []
     for word in words:
-        if found[-1:] == ["--axes"] and word[:2].lower() in ("-x", "-y", "-z"):
+        if _LENGTH.fullmatch(word):
+            number, unit = word[:-2], word[-2:]
+            # As argparse knows a negative number.
+            found.append(f"{float(number) * (1e-3 if unit == 'mm' else 1e-2):.9f}")
+        elif found[-1:] == ["--axes"] and word[:2].lower() in ("-x", "-y", "-z"):
             found[-1] = f"--axes={word}"
         else:
             found.append(word)

@@ -109,7 +109,7 @@ def _drag(address: str, distance: float) -> DemoEdit:
     def change(hull: Hull, edit: Edit) -> None:
         point = hull.points[address]
         (axis,) = point.free
-        edit.move(point, **{axis: getattr(point, axis) + distance})
+        edit.move(point, lead=False, **{axis: getattr(point, axis) + distance})
 
     def along(hull: Hull) -> FloatArray:
         return np.eye(3)[["xyz".index(axis) for axis in hull.points[address].free]]

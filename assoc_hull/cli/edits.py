@@ -39,6 +39,7 @@ from assoc_hull.cli.problems import (
     check_target,
     is_apart,
 )
+from assoc_hull.cli.typed_edits import is_operation, typed_edit, unknown_edit
 from assoc_hull.edit.explain.causes import Why
 from assoc_hull.edit.explain.compare_states import state_at
 from assoc_hull.edit.explain.preview import LineChange, Preview
@@ -220,7 +221,9 @@ def add_edit(commands: Commands) -> None:
     parser = add_command(
         commands, "edit",
         _edit,
-        """assoc-hull edit ship.hull edits.json --why "BTK 0.44"
+        """assoc-hull edit ship.hull pull "WL 0.5 x ST 16" 20mm radius=20,8
+        assoc-hull edit ship.hull move "WL 0.5 x ST 16" y=6.79 --dry-run
+        assoc-hull edit ship.hull edits.json --why "BTK 0.44"
         assoc-hull edit ship.hull edits.json -o fairer.hull
         assoc-hull edit ship.hull edits.json --dry-run --json
 
@@ -229,7 +232,16 @@ def add_edit(commands: Commands) -> None:
         (lengths in m; all modifications are one edit)""",
     )  # fmt: skip
     add_hull(parser)
-    parser.add_argument("edits", metavar="EDITS.json", type=Path, help="a list of modifications")
+    parser.add_argument(
+        "edits", metavar="EDITS", type=Path,
+        help="a .json file with a list of modifications, or one of them: move, insert, delete, "
+        "pull, reshape, lead, fair, straighten, round, spread, ... with its VALUES",
+    )  # fmt: skip
+    parser.add_argument(
+        "values", metavar="VALUE", nargs="*",
+        help="in the order of the arguments, or NAME=VALUE: a length (20mm, .02), a place (x,y,z), "
+        "several (x,y,z;x,y,z), a name",
+    )  # fmt: skip
     parser.add_argument(
         "-o", "--out", metavar="OUT", type=Path, help="where to write the hull (default: HULL)"
     )
@@ -249,8 +261,15 @@ def add_edit(commands: Commands) -> None:
 
 
 def _edit(arguments: argparse.Namespace) -> int:
-    changes = _read(arguments.edits)
-    name = arguments.name or arguments.edits.stem
+    typed = str(arguments.edits)
+    if is_operation(typed) and not arguments.edits.exists():
+        changes: Changes = [typed_edit(typed, arguments.values)]
+        name = arguments.name or " ".join([typed, *arguments.values[:1]])
+    elif arguments.values or not (arguments.edits.suffix or arguments.edits.exists()):
+        raise unknown_edit(typed)
+    else:
+        changes = _read(arguments.edits)
+        name = arguments.name or arguments.edits.stem
     try:
         if arguments.dry_run:
             return _try(arguments, name, changes)

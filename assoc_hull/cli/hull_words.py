@@ -18,7 +18,7 @@ import attrs
 from assoc_hull.edit.report import SAME_MOVEMENT, EditReport, Movement
 from assoc_hull.hull import Hull
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.kinds import Sort
+from assoc_hull.model.kinds import OWN, Sort
 from assoc_hull.model.objects import Curve
 
 if TYPE_CHECKING:  # most commands read no foreign file
@@ -145,6 +145,7 @@ def hull_facts(hull: Hull) -> dict[str, Any]:
     """Give what a hull holds; lengths in m."""
     groups = {
         name: {"family": group.family, "lines": list(group.lines)}
+        | ({"members": [each.name for each in group.members]} if group.family == OWN else {})
         for name, group in hull.groups.items()
     }
     return {

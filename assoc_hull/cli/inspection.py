@@ -12,7 +12,14 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 
-from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull, add_json
+from assoc_hull.cli.arguments import (
+    PICTURE_ENDINGS,
+    Commands,
+    add_command,
+    add_hull,
+    add_json,
+    parse_length,
+)
 from assoc_hull.cli.hull_words import hull_facts, hull_words
 from assoc_hull.cli.output import can_print, emit, progress, why_document
 from assoc_hull.cli.problems import UsageError, check_other_target, check_target
@@ -121,6 +128,7 @@ def add_why(commands: Commands) -> None:
         commands, "why", _why,
         """assoc-hull why ship.hull "BTK 0.44"
         assoc-hull why ship.hull "WL 0.5 x ST 16" --tree
+        assoc-hull why ship.hull "WL 0.5" --step 3 --least 0.1mm
         assoc-hull why ship.hull "WL 0.5" --json""",
     )  # fmt: skip
     add_hull(parser)
@@ -129,15 +137,30 @@ def add_why(commands: Commands) -> None:
         help="a point, a curve, a line (of which the first curve is meant) or a definition: its "
         "address, name or key",
     )  # fmt: skip
+    parser.add_argument(
+        "--step", metavar="N", type=int,
+        help="the edit of this number, as `history` lists it; -1 is the last (default: the last "
+        "that reached the object)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--least", metavar="LENGTH", type=_least,
+        help="leave out causes that moved less, as 0.1mm or in m (default: of a pull and the like, "
+        "those below a hundredth of the largest)",
+    )  # fmt: skip
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--tree", action="store_true", help="draw the tree of causes")
     add_json(form)
 
 
+def _least(text: str) -> float:
+    """Take a length, or 0."""
+    return 0.0 if text.strip() == "0" else parse_length(text)
+
+
 def _why(arguments: argparse.Namespace) -> int:
     hull = open_hull(arguments.hull)
     with progress("looking through the history"):
-        cause = hull.why(arguments.object)
+        cause = hull.why(arguments.object, step=arguments.step, least=arguments.least)
     text = cause.tree(plain=not can_print("│├└─")) if arguments.tree else str(cause)
     emit(arguments, why_document(cause), text)
     return 0
@@ -293,8 +316,8 @@ def _add_filters(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--edit", type=int, metavar="N",
-        help="only what this edit changed: 1 is the first, -1 the last (default with --only "
-        "changed: the last)",
+        help="only what the edit of this number changed, as `history` lists it; -1 is the last "
+        "(default with --only changed: the last)",
     )  # fmt: skip
 
 

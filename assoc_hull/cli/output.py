@@ -89,6 +89,8 @@ def why_document(cause: Why, told: set[str] | None = None) -> dict[str, Any]:
         "again": again,
         "causes": [] if again else [why_document(each, known) for each in cause.causes],
         "stopped": list(cause.stopped),
+        "because": cause.because,
+        "left": cause.left,
     }
 
 

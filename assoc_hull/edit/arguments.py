@@ -7,20 +7,24 @@ the tables. Every refusal says what was given, where, and what to give instead.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import place, shown, shown_name
+from assoc_hull.arguments import number, place, shown, shown_name
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.plane import AXES
 from assoc_hull.model.address import ResolvedAddress, resolve_address
+from assoc_hull.model.kinds import OWN
+from assoc_hull.model.links import live_group, named_lines
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point, is_in, numbers_of
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import Corner, HullState, Ruling
 
 __all__ = [
     "GivenObjects",
+    "box_corners",
     "direction_in",
     "line_name",
 ]
@@ -75,6 +79,27 @@ def direction_in(state: HullState, curve: int, value: object, name: str) -> Floa
 _HANDLE = "give a handle or an address"
 
 
+def box_corners(box: object) -> tuple[Corner, Corner]:
+    """Take bounds of a box by axis, (from, to) in m with None for no bound; give its corners."""
+    if not isinstance(box, Mapping) or not set(box) <= set(AXES):
+        remedy = "give bounds by axis, as {'x': (0.0, 60.0)}, None for no bound; {} for all"
+        raise BadInputError(f"a box is {shown(box)}", "in rule", remedy)
+    corners: list[list[float | None]] = [[None] * 3, [None] * 3]
+    for axis, bounds in box.items():
+        if not isinstance(bounds, Sequence) or isinstance(bounds, str) or len(bounds) != 2:
+            remedy = "give (from, to) in m, None for no bound"
+            raise BadInputError(f"the bounds of {axis} are {shown(bounds)}", "in rule", remedy)
+        for corner, bound in zip(corners, bounds, strict=True):
+            if bound is not None:
+                corner[AXES.index(axis)] = number(bound, axis, "in rule")
+        least, most = (corner[AXES.index(axis)] for corner in corners)
+        if least is not None and most is not None and least >= most:
+            what = f"the box runs from {axis} {least:g} to {most:g} m"
+            raise BadInputError(what, "in rule", "give the lower bound first")
+    low, high = ((each[0], each[1], each[2]) for each in corners)
+    return low, high
+
+
 @attrs.frozen(eq=False)
 class GivenObjects:
     """Finds numbers in the tables; each method raises what fits a wrong argument.
@@ -109,13 +134,16 @@ class GivenObjects:
 
     def group(self, group: Group | str) -> str:
         """Take the name of a group; lines are associated by their groups only."""
-        if isinstance(group, str) and group in self.tables.groups.name.data:
-            return group
         try:
             place = self.place(group)
         except UnknownNameError:
             return str(group)  # the edit names the groups there are in its own error
         name = str(self.tables.groups.name[place.group])
+        if place.line < 0 and self.tables.groups.family[place.group] == OWN:
+            raise BadInputError(
+                f"{name!r} is a group of one's own", "in an edit",
+                "name the group of a family; edit.rule says where own groups rule",
+            )  # fmt: skip
         if place.line >= 0:
             raise BadInputError(
                 f"{shown_name(getattr(group, 'name', group))!r} lies in the group {name!r}",
@@ -124,10 +152,53 @@ class GivenObjects:
             )
         return name
 
+    def group_or_line(self, thing: Group | Line | str) -> str:
+        """Take the name of a group, or the key of a line."""
+        if isinstance(thing, str) and live_group(self.tables, thing) is not None:
+            return thing
+        if not isinstance(thing, str | Group | Line):
+            raise WrongTypeError(f"the lines are {shown(thing)}", "in an edit", _HANDLE)
+        found = self.place(thing)
+        if found.curve >= 0 or found.row >= 0:
+            what = f"{shown(thing)} is no group and no line"
+            raise BadInputError(what, "in an edit", "name a group or a line")
+        if found.line >= 0:
+            return str(self.tables.lines.key[found.line])
+        return str(self.tables.groups.name[found.group])
+
+    def members(self, lines: Sequence[Group | Line | str], where: str) -> tuple[str, ...]:
+        """Take what a group is to hold: keys of lines and names of groups, each once."""
+        if isinstance(lines, str | Group | Line) or not isinstance(lines, Sequence):
+            remedy = "give a list of lines and groups"
+            raise WrongTypeError(f"the lines are {shown(lines)}", where, remedy)
+        found = [self.group_or_line(each) for each in lines]
+        if not found:
+            raise BadInputError("the group would hold nothing", where, "name lines or groups")
+        for each in found:
+            if found.count(each) > 1:
+                raise BadInputError(f"{each!r} is named twice", where, "name it once")
+        return tuple(found)
+
+    def rulings(self, a: str, b: str, where: Sequence[object]) -> list[Ruling]:
+        """Take who rules in which boxes: pairs of a name or None, and of bounds by axis."""
+        found = list[Ruling]()
+        for each in where:
+            if not isinstance(each, Sequence) or isinstance(each, str) or len(each) != 2:
+                remedy = "give (who rules, {'x': (from, to)}), None for who where both do"
+                raise BadInputError(f"an item is {shown(each)}", "in rule", remedy)
+            ruler, box = each
+            giver = a if ruler is None else self.group_or_line(ruler)
+            if giver not in (a, b):
+                what = f"{shown(ruler)} rules, and is neither of the two"
+                raise BadInputError(what, "in rule", f"name {a!r} or {b!r}, or None for both")
+            low, high = box_corners(box)
+            found.append(Ruling(giver, b if giver == a else a, ruler is None, low, high))
+        return found
+
     def group_named(self, name: object) -> str | None:
         """Give the group that a name means, however it is written; None if it means none."""
         names = self.tables.groups.name.data
-        if not isinstance(name, str) or name in names:
+        if not isinstance(name, str) or live_group(self.tables, name) is not None:
             return name if isinstance(name, str) else None
         try:
             found = resolve_address(self.tables, name)
@@ -199,14 +270,12 @@ class GivenObjects:
                 f"drivers is {shown(drivers)}", "in transform", "give a list of names"
             )
         tables, found = self.tables, list[int]()
-        names = tables.groups.name.data
         for each in drivers:
             if isinstance(each, Group) and each.home is not tables.live_tables:
                 raise ForeignPointError(repr(each))
             name = each.name if isinstance(each, Group) else self.group_named(each)
             if isinstance(each, Group) or name is not None:
-                live = tables.live("lines")
-                found += live[tables.lines.group[live] == names.index(str(name))].tolist()
+                found += [i for i in named_lines(tables, str(name)).tolist() if i not in found]
             else:
                 found.append(self.line(each))
         return found

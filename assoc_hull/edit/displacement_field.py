@@ -37,6 +37,7 @@ __all__ = [
     "PullField",
     "SolvedField",
     "add_displacements",
+    "fixed_places",
     "flat_distance",
     "land_points",
     "level_with_flats",
@@ -323,6 +324,11 @@ def on_flat(state: HullState) -> BoolArray:
     """Tell which points lie in a flat or on its border."""
     found = _of_lines(state, _boundary_lines(state, BoundaryKind.FLAT))
     return found | _in_flat_planes(state, state.rows.xyz.data)
+
+
+def fixed_places(state: HullState, xyz: FloatArray) -> BoolArray:
+    """Tell which places (k, 3), m, lie in the centre plane or in that of a flat."""
+    return _in_flat_planes(state, xyz) | (np.abs(xyz[:, 1]) < _IN_PLANE)
 
 
 def _in_flat_planes(state: HullState, xyz: FloatArray) -> BoolArray:

@@ -21,6 +21,7 @@ import numpy as np
 
 from assoc_hull.arguments import choice, flag, pair, shown, text
 from assoc_hull.edit.arguments import GivenObjects
+from assoc_hull.edit.dirty_objects import Dirty
 from assoc_hull.edit.displacement_field import (
     CLOSE,
     FieldContext,
@@ -42,6 +43,7 @@ from assoc_hull.errors import AssocHullError, BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address
+from assoc_hull.model.dirty_nodes import CLEAN
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import free_axes
 from assoc_hull.model.objects import Point
@@ -236,6 +238,10 @@ def _as_float(value: float) -> float:
         return float(value)
     except OverflowError:
         return math.inf if value > 0 else -math.inf
+
+
+class _SeenError(Exception):
+    """Ends an edit of which all has been seen before it is carried out."""
 
 
 class Drag:
@@ -439,6 +445,27 @@ class Drag:
         assert edit.report is not None
         return edit.report
 
+    @property
+    def dirty(self) -> Dirty:
+        """What the last `to` asked for reaches, as `Hull.dirty` tells of an edit; first nothing.
+
+        Raises
+        ------
+        BadInputError
+            As of `to`: the drag has ended, or the hull was changed meanwhile.
+        """
+        with self._one_at_a_time("dirty"):
+            self._require_open("dirty")
+            state, found = self._document.state, Dirty(self._document.state, CLEAN)
+            if self._last:
+                trial = Edit(self._document, "drag", self._settings, look=lambda _: None)
+                with contextlib.suppress(_SeenError), trial:
+                    with contextlib.suppress(AssocHullError):
+                        self._ask(trial, self._last)
+                    found = Dirty(state, state.dirty_here())
+                    raise _SeenError
+            return found
+
     def stop(self) -> None:
         """End a `to` that is in progress, at its next sub-step; from any thread.
 
@@ -478,7 +505,7 @@ class Drag:
         if self._how == "pull":
             edit.pull(self._name, **asked, **self._asked)  # type: ignore[arg-type]
         else:
-            edit.move(self._name, **asked)
+            edit.move(self._name, lead=False, **asked)
 
     def _nothing(self, refused: tuple[str, ...]) -> Live:
         none, nowhere = np.zeros(0, np.int64), np.zeros((0, 3))

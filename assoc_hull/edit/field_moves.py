@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 import attrs
 import numpy as np
@@ -25,6 +25,7 @@ from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.network import bits_differ
+from assoc_hull.model.node import Node
 from assoc_hull.model.program.structure import Program, Values
 from assoc_hull.model.tables import HullState
 
@@ -58,6 +59,19 @@ class FieldMoves(Modification):
     def strict(self) -> bool:
         """Whether nothing but its own points may move."""
         return any(field.strict for field in self.fields)
+
+    @property
+    def asked_for(self) -> int:
+        """How many fields there are."""
+        return len(self.fields)
+
+    def reached(self, state: HullState) -> Sequence[IntArray]:
+        """Give the points that each field moves."""
+        ground = FieldContext(state, any(field.across_flats for field in self.fields))
+        return [
+            Node.point(np.concatenate([field.shift(ground, 1.0).rows, field.exact()[0]]))
+            for field in self.fields
+        ]
 
     def landing(self) -> Iterable[tuple[IntArray, FloatArray]]:
         """Give the points that fields put to given places."""

@@ -60,6 +60,10 @@ class LineLed:
     to: FloatArray
     span: tuple[float, float] | None
 
+    def goals(self) -> dict[int, FloatArray]:
+        """Give the places by point."""
+        return dict(zip(self.rows.tolist(), self.to, strict=True))
+
 
 @attrs.frozen(eq=False)
 class Stretch:

@@ -7,7 +7,7 @@ class, and a line in the table of `assoc_hull.edit.update`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from copy import copy
 from typing import Protocol, TypeVar, cast
 
@@ -35,7 +35,7 @@ from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
-__all__ = ["ROUNDS", "LateAnswer", "Modification", "Pending", "TriedNumbers", "Work"]
+__all__ = ["ROUNDS", "Extent", "LateAnswer", "Modification", "Pending", "TriedNumbers", "Work"]
 
 _NONE: IntArray = np.zeros(0, np.int64)
 
@@ -72,6 +72,15 @@ class Modification:
 
     def landing(self) -> Iterable[tuple[IntArray, FloatArray]]:
         """Give points (k,) that it puts to given places, and these, (k, 3), m."""
+        return ()
+
+    @property
+    def asked_for(self) -> int:
+        """How many things it was asked for so far."""
+        return 0
+
+    def reached(self, state: HullState) -> Sequence[IntArray]:
+        """Give the nodes (k,) that each of these things may set, in the order of asking."""
         return ()
 
     def plan(self, work: Work) -> None:
@@ -128,8 +137,35 @@ class TriedNumbers(Protocol):
 class LateAnswer(Protocol):
     """What an edit asks for that waits until all else has been carried out."""
 
+    @property
+    def idle(self) -> bool:
+        """Whether all that is asked for is so already."""
+
+    def reached(self) -> Iterable[tuple[str, IntArray]]:
+        """Give in words each thing that is asked for, and the nodes (k,) that it may set."""
+
     def carry_out(self) -> None:
         """Carry it out, as stages of the edit."""
+
+
+@attrs.frozen
+class Extent:
+    """How much was pending at some time: what came later is more than that.
+
+    Attributes
+    ----------
+    values : int
+        How many points had places.
+    fields : dict of type to int
+        By kind of modification, how many things were asked of it.
+    curves, computed : frozenset of int
+        Curves with another recipe, and crossings computed from another curve.
+    """
+
+    values: int = 0
+    fields: dict[type[Modification], int] = attrs.field(factory=dict)
+    curves: frozenset[int] = frozenset()
+    computed: frozenset[int] = frozenset()
 
 
 @attrs.define(eq=False)
@@ -209,6 +245,12 @@ class Pending:
         # Each stands under its own kind.
         return cast("M | None", self.modifications.get(kind))
 
+    def extent(self) -> Extent:
+        """Tell how much is pending."""
+        fields = {kind: each.asked_for for kind, each in self.modifications.items()}
+        curves = frozenset(self.curves.union(self.fresh))
+        return Extent(len(self.values), fields, curves, frozenset(self.computed))
+
     def copied(self) -> Pending:
         """Give a copy that has collections of its own; the modifications in it are the same."""
         found = copy(self)
@@ -221,7 +263,8 @@ class Pending:
     @property
     def empty(self) -> bool:
         """Whether no modification is there that takes more than places and recipes."""
-        return self.answer is None and all(each.idle for each in self.modifications.values())
+        late = self.answer is None or self.answer.idle
+        return late and all(each.idle for each in self.modifications.values())
 
     @property
     def displaces(self) -> bool:

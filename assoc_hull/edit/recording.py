@@ -31,6 +31,7 @@ from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
 
 __all__ = [
     "ANY_FUNCTION",
+    "WRITTEN_OUT",
     "Recording",
     "Said",
     "Script",
@@ -45,6 +46,9 @@ ANY_FUNCTION = "<a function>"
 
 Said = None | bool | int | float | str | list["Said"] | dict[str, "Said"]
 """A value as JSON can say it."""
+
+WRITTEN_OUT = ("lead",)
+"""Arguments that scripts always say. Where a script does not, it means False."""
 
 _DEEPEST = 8
 
@@ -186,12 +190,15 @@ R = TypeVar("R", bound=Recording)
 
 def recorded(method: Callable[Concatenate[R, P], T]) -> Callable[Concatenate[R, P], T]:
     """Let a method of an edit keep each call that it accepted."""
-    takes = inspect.signature(method)
-    names = list(takes.parameters)[1:]
+    takes = inspect.signature(method).parameters
+    names = list(takes)[1:]
+    # What an older script leaves out may have another meaning than what a call does.
+    always = {name: takes[name].default for name in WRITTEN_OUT if name in takes}
 
     @wraps(method)
     def asked(self: R, /, *args: P.args, **named: P.kwargs) -> T:
         given = {**dict(zip(names, args, strict=False)), **named}
+        given |= {name: value for name, value in always.items() if name not in given}
         change = {name: said(value) for name, value in given.items()}
         found = method(self, *args, **named)
         self._note({"op": method.__name__, **change})

@@ -16,7 +16,7 @@ import attrs
 
 from assoc_hull.arguments import shown, shown_name
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.recording import Settings
+from assoc_hull.edit.recording import WRITTEN_OUT, Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.step import Step
@@ -28,6 +28,7 @@ __all__ = [
     "PolicyName",
     "Replayed",
     "carry_out",
+    "operations",
     "replay",
 ]
 
@@ -69,10 +70,13 @@ def _modify(edit: Edit, change: object, where: str) -> None:
     if not isinstance(change, Mapping) or not all(isinstance(key, str) for key in change):
         raise WrongTypeError(f"it is {shown(change)}", where, 'give {"op": "move", "point": ...}')
     arguments = dict(change)
-    name, known = arguments.pop("op", ""), _operations()
+    name, known = arguments.pop("op", ""), operations()
     if not isinstance(name, str) or name not in known:
         raise UnknownNameError("modification", shown_name(name), tuple(known))
     method, takes = getattr(edit, name), known[name]
+    arguments |= {
+        each: False for each in WRITTEN_OUT if each in takes.parameters and each not in arguments
+    }
     any_name = any(each.kind is each.VAR_KEYWORD for each in takes.parameters.values())
     for given in arguments:
         if given not in takes.parameters and not any_name:
@@ -86,7 +90,7 @@ def _modify(edit: Edit, change: object, where: str) -> None:
 
 
 @cache
-def _operations() -> Mapping[str, inspect.Signature]:
+def operations() -> Mapping[str, inspect.Signature]:
     """Give what the public methods of an edit take, by name."""
     found = dict[str, inspect.Signature]()
     for name in sorted(vars(Edit)):

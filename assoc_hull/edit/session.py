@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal, Self
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import all_of, choice, flag, number, places, positive, shown
-from assoc_hull.edit.arguments import GivenObjects
+from assoc_hull.edit.arguments import GivenObjects, line_name
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.lines import add_line as _cut
 from assoc_hull.edit.lines import knuckle_lines as _knuckles
@@ -26,6 +26,7 @@ from assoc_hull.edit.modifications import curve_ends as _ends
 from assoc_hull.edit.modifications import definitions as _reattach
 from assoc_hull.edit.modifications import definitions as _set_form
 from assoc_hull.edit.modifications import draw_runs as _draw
+from assoc_hull.edit.modifications import groups as _groups
 from assoc_hull.edit.modifications import lead as _lead
 from assoc_hull.edit.modifications import names as _rename
 from assoc_hull.edit.modifications import points as _points
@@ -63,6 +64,9 @@ if TYPE_CHECKING:
     from assoc_hull.edit.modifications.fair import Faired
 
 __all__ = ["Edit", "join_edit", "open_edit", "refusal_of"]
+
+Bounds = tuple[float | None, float | None]
+"""From where to where along an axis, m; None for no bound."""
 
 _USE = "use it in a with statement"
 _HANDLE = "give a handle or an address"
@@ -212,7 +216,7 @@ class Edit:
 
     def _note(self, change: dict[str, Said]) -> None:
         """Keep a modification that was asked for, as data."""
-        self._held.script.append(change)
+        self._held.note(change)
 
     @property
     def _transaction(self) -> Transaction:
@@ -242,8 +246,12 @@ class Edit:
         y: float | None = None,
         z: float | None = None,
         by: ArrayLike | None = None,
+        lead: bool = True,
     ) -> None:
         """Move a point along its freedom to a place, or points by vectors.
+
+        A placed or an adopted point leads its line, see `lead`, but for one on a flat, the profile
+        or a boundary curve; a crossing is pinned: its two lines take it along.
 
         Parameters
         ----------
@@ -254,6 +262,8 @@ class Edit:
         by : (3,) or (k, 3) or None, m
             Instead: the vector from where the points were before the edit, one for all or one
             for each. Along coordinates in which a point is not free it must be 0.
+        lead : bool
+            False: placed and adopted points are pinned, too.
 
         Raises
         ------
@@ -287,15 +297,25 @@ class Edit:
             remedy = "give one point and its coordinates, or points and by=(x, y, z)"
             raise BadInputError(what, "in move", remedy)
         rows = [self._given.point(each)[0] for each in point]
-        if by is None:
-            _points.move(self._transaction, rows[0], given)
-        else:
-            _points.move_by(self._transaction, rows, places(by, "by", "in move"))
+        put = _lead.put if flag(lead, "lead", "in move") else _lead.put_pinned
+        with self._transaction.whole() as held:
+            if by is None:
+                _points.move(held, rows[0], given, put)
+            else:
+                _points.move_by(held, rows, places(by, "by", "in move"), put)
 
     @recorded
-    def insert(self, curve: Curve | str, place: ArrayLike) -> Point:
-        """Insert a placed point at (x, y, z), m; it is never moved by an update."""
-        row = _points.insert(self._transaction, self._given.curve(curve), place)
+    def insert(self, curve: Curve | str, place: ArrayLike, *, lead: bool = True) -> Point:
+        """Insert a placed point at (x, y, z), m; it is never moved by an update.
+
+        A place off the curve, by more than 1e-5 Lpp, leads the line there, see `lead`; in the plane
+        of a crossing line it is asked of that crossing, which is given. On boundary curves, flats
+        and the profile, and with ``lead=False``, the point is pinned: the curve bends between its
+        neighbours.
+        """
+        number, leads = self._given.curve(curve), flag(lead, "lead", "in insert")
+        with self._transaction.whole() as held:
+            row = (_lead.insert if leads else _lead.insert_pinned)(held, number, place)
         return Point.of(self._tables, row)
 
     @recorded
@@ -676,6 +696,118 @@ class Edit:
         _associate.associate(self._transaction, first, second, two_way=two_way)
 
     @recorded
+    def rule(
+        self, a: Group | Line | str, b: Group | Line | str,
+        where: Sequence[tuple[Group | Line | str | None, Mapping[str, Bounds]]],
+    ) -> None:  # fmt: skip
+        """Say which of two groups or lines rules where; no curve moves by a bit.
+
+        Where one rules, its lines generate points on those of the other and take none from them.
+        What is said takes the place of what was said of the two before; an empty list takes it
+        back, and `associate` and `dissociate` of their groups do.
+
+        Parameters
+        ----------
+        a, b : Group, Line or str
+            The two; their groups are associated.
+        where : sequence of (Group, Line, str or None, mapping)
+            Who rules, `a` or `b` or None for both, and in which box: bounds by ``"x"``, ``"y"`` and
+            ``"z"`` as (from, to), m, None for no bound. A crossing belongs to the first box that
+            holds it, on a border to the lower one; in no box it follows the association.
+
+        Raises
+        ------
+        BadInputError
+            Two that do not meet, somebody else who rules, or bounds that are none.
+        UnknownNameError
+            No such group or line.
+        RingError
+            When the edit ends, if lines would drive one another in a ring.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("waterlines rule the stern") as edit:
+        ...     edit.rule("waterlines", "sections", [("waterlines", {"x": (None, 40.0)})])
+        >>> hull.crossings["WL 2.5 x ST 7"].role, hull.crossings["WL 2.5 x ST 12"].role
+        ('drives a', 'shared')
+        """
+        given = self._given
+        first, second = given.group_or_line(a), given.group_or_line(b)
+        if isinstance(where, (str, Mapping)) or not isinstance(where, Sequence):
+            what = f"where is {shown(where)}"
+            raise WrongTypeError(what, "in rule", "give a list of (who rules, box)")
+        rulings = given.rulings(first, second, where)
+        with self._transaction.whole() as held:
+            _associate.rule(held, first, second, rulings)
+
+    @recorded
+    def group(self, name: str, lines: Sequence[Group | Line | str]) -> Group:
+        """Make a group of one's own of lines and groups, for instance ``"stern lines"``.
+
+        It may be named wherever lines are: in `rule`, as drivers, in `fair`, in pictures.
+
+        Parameters
+        ----------
+        name : str
+            What it is called.
+        lines : sequence of Group, Line or str
+            What it holds. A line may be in several groups; one that is removed leaves them.
+
+        Raises
+        ------
+        NameTakenError
+            A group, a line or a point has the name.
+        BadInputError
+            A name that is empty or could be read as an address; nothing in it, or one thing twice.
+        UnknownNameError
+            No such line or group.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("groups") as edit:
+        ...     _ = edit.group("stern lines", ["ST 1", "ST 2", "WL 2.5"])
+        ...     _ = edit.group("all of it", ["stern lines", "buttocks"])
+        >>> [each.name for each in hull.groups["stern lines"].members]
+        ['ST 1', 'ST 2', 'WL 2.5']
+        >>> hull.groups["stern lines"].container
+        <Group all of it>
+        """
+        title = line_name(name)
+        members = self._given.members(lines, "in group")
+        return Group.of(self._tables, _groups.group(self._transaction, title, members))
+
+    @recorded
+    def regroup(self, group: Group | str, lines: Sequence[Group | Line | str]) -> None:
+        """Let a group of one's own hold other lines and groups.
+
+        Raises
+        ------
+        BadInputError
+            The group of a family, or one that would hold itself, with the path.
+        UnknownNameError
+            No such group or line.
+        """
+        members = self._given.members(lines, "in regroup")
+        _groups.regroup(self._transaction, self._given.group_or_line(group), members)
+
+    @recorded
+    def ungroup(self, group: Group | str) -> None:
+        """Take a group of one's own away; its lines stay.
+
+        Raises
+        ------
+        BadInputError
+            The group of a family, or one that a ruling names.
+        UnknownNameError
+            No such group.
+        """
+        _groups.ungroup(self._transaction, self._given.group_or_line(group))
+
+    @recorded
     def dissociate(self, a: Group | str, b: Group | str) -> None:
         """Take an association back."""
         _associate.dissociate(self._transaction, self._given.group(a), self._given.group(b))
@@ -740,7 +872,8 @@ class Edit:
         how many degrees it falls outward from the horizontal.
         """
         if isinstance(group, str):
-            title = self._given.group_named(group) or group
+            found = self._given.group_named(group)
+            title = group if found is None else self._given.group(found)
         else:
             title = self._given.group(group)
         line = _cut.add_line(self._transaction, title, position, name)

@@ -14,9 +14,10 @@ from typing import Self
 import attrs
 import numpy as np
 
+from assoc_hull.edit.dirty_seeds import dirty_nodes
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.garbage_collection import PausedCollector
-from assoc_hull.edit.modification import Pending
+from assoc_hull.edit.modification import Extent, Pending
 from assoc_hull.edit.outcome import joined_step
 from assoc_hull.edit.recording import Said, Script, Settings, VariedValues
 from assoc_hull.edit.report import EditReport, Led
@@ -27,12 +28,15 @@ from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.derived import Marked
 from assoc_hull.graph.journal import Journal
+from assoc_hull.model.dirty_nodes import DirtyNodes
 from assoc_hull.model.index import Index
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
 __all__ = ["Transaction"]
+
+_NO_NODES: IntArray = np.zeros(0, np.int64)
 
 _IDLE = "nothing was changed: all that was asked for is so already; there is no step to undo"
 
@@ -92,6 +96,8 @@ class Transaction:
         self.journal = Journal()
         self.pending = Pending()
         self.script: list[dict[str, Said]] = []
+        self._extents: list[Extent] = []
+        self._dirty: tuple[tuple[int, int, int], DirtyNodes] | None = None
         self.varied = self.varied_before = VariedValues()
         self._told: EditReport | None = None
         self._step: Step | None = None
@@ -118,6 +124,23 @@ class Transaction:
     def state(self) -> HullState:
         """The tables."""
         return self.document.state
+
+    def note(self, change: dict[str, Said]) -> None:
+        """Keep a modification that was asked for, as data."""
+        self.script.append(change)
+        self._extents.append(self.pending.extent())
+
+    def dirty(self) -> DirtyNodes:
+        """Give what has been reached by what was asked for so far."""
+        at = len(self.script), len(self._stages), len(self.journal.entries)
+        if self._dirty is None or self._dirty[0] != at or not self.script:
+            bodies = [each.step.body for each in self._stages]
+            done = np.unique(np.concatenate([_NO_NODES, *(each.changed for each in bodies)]))
+            found = dirty_nodes(
+                self.document, self.pending, self.script, self._extents, done, self.name
+            )
+            self._dirty = at, found
+        return self._dirty[1]
 
     @property
     def maker(self) -> Maker:
@@ -147,6 +170,11 @@ class Transaction:
     def stages(self) -> int:
         """How many stages have ended."""
         return len(self._stages)
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """What each stage that has ended did: the very objects, as long as it stands."""
+        return tuple(each.step for each in self._stages)
 
     def lofted(self, first: int = 0) -> IntArray:
         """Give the curves that stages lofted or made, from one on, ascending, as far as alive."""
@@ -259,6 +287,7 @@ class Transaction:
         self._index, self._known = self.document.known_index, self.state.memory.mark()
         self._begun = True
         self.document.writer = self
+        self.state.tell_dirty(self.dirty)
 
     def _end(self) -> None:
         """Give the right to write back, and bring memory to what is kept if that is ahead.
@@ -315,10 +344,7 @@ class Transaction:
                 reason = "an edit nested in it failed, so all of it was taken back"
                 raise RefusedEditError(self.name, (reason,))
             if self._idle() and not self._stages:
-                self._told = EditReport(
-                    self.name, changed=False, notes=(*self.pending.notes, _IDLE)
-                )
-                self._restore()
+                self._tell_idle()
             else:
                 self._publish()
         except BaseException:
@@ -332,6 +358,12 @@ class Transaction:
                 self.look(self._step)
             finally:
                 self._restore()
+
+    def _tell_idle(self) -> None:
+        """End without a step, and say that nothing was changed."""
+        notes = (*self.notes, *self.pending.notes, _IDLE)
+        self._told = EditReport(self.name, changed=False, notes=notes)
+        self._restore()
 
     def _idle(self) -> bool:
         """Tell whether all that was asked for is so already: then there is nothing to undo."""
@@ -348,6 +380,9 @@ class Transaction:
         answer, self.pending.answer = self.pending.answer, None
         if answer is not None:
             answer.carry_out()
+            if self._idle() and not self._stages:
+                self._tell_idle()
+                return
         if self._stages:
             self.end_stage()
             stages = [each.step for each in self._stages]
@@ -357,8 +392,8 @@ class Transaction:
             )  # fmt: skip
         else:
             step = update(self.document, self.name, self.journal, self.pending, self.settings)
+        step.script = Script.of(self.script, self.settings, self.varied, self.varied_before)
         if self.look is None:
-            step.script = Script.of(self.script, self.settings, self.varied, self.varied_before)
             if (known := self.pending.numbers) is not None:
                 step.change = known.change()
             # Known before it is committed: behind that nothing is taken back.

@@ -21,6 +21,7 @@ __all__ = [
     "Readers",
     "closure",
     "distinct",
+    "spread",
 ]
 
 
@@ -92,3 +93,26 @@ def closure(network: Network, seeds: IntArray) -> IntArray:
         front = reached[found.take(place, mode="clip") != reached]
         found = distinct(np.concatenate([found, front]))
     return found
+
+
+def spread(network: Network, seeds: IntArray) -> Readers:
+    """Give the closure of seeds (k,), each node with the one through which it is reached first.
+
+    A seed is reached through itself. Nodes come in the order of their distance, then ascending; of
+    several that reach a node at one distance the least is given.
+    """
+    found = front = distinct(seeds)
+    pairs = [Readers(front, front)]
+    while len(front):
+        links = network.readers(front)
+        order = np.lexsort((links.source, links.reader))
+        reader, source = links.reader[order], links.source[order]
+        fresh = ~np.isin(reader, found)
+        fresh[1:] &= reader[1:] != reader[:-1]
+        front = reader[fresh]
+        pairs.append(Readers(front, source[fresh]))
+        found = distinct(np.concatenate([found, front]))
+    return Readers(
+        np.concatenate([each.reader for each in pairs]),
+        np.concatenate([each.source for each in pairs]),
+    )

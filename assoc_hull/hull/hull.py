@@ -29,9 +29,9 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out
 from assoc_hull.edit.session import Edit, join_edit, open_edit
 from assoc_hull.edit.write_lock import PATIENCE
-from assoc_hull.errors import UnknownNameError
+from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.kinds import FAMILIES
+from assoc_hull.model.kinds import FAMILIES, OWN
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.named_mapping import NamedMapping
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point, Points, handle
@@ -71,6 +71,7 @@ if TYPE_CHECKING:
     from assoc_hull.creation.creation_report import CreationReport
     from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
     from assoc_hull.edit.checks.finding import Finding
+    from assoc_hull.edit.dirty_objects import Dirty
     from assoc_hull.edit.document import Changed, Label
     from assoc_hull.edit.drag import Drag, DragWay
     from assoc_hull.edit.explain.causes import Thing, Why
@@ -159,12 +160,12 @@ class Hull:
 
     @property
     def groups(self) -> Mapping[str, Group]:
-        """The groups of lines by name, in the order of the ranks."""
+        """The groups of lines by name, in the order of the ranks; last, those of one's own."""
         state = self.state
         table = state.groups
+        rank = {name: family.rank for name, family in FAMILIES.items()} | {OWN: len(FAMILIES)}
         order = sorted(
-            state.live("groups").tolist(),
-            key=lambda i: (FAMILIES[table.family[i]].rank, table.name[i]),
+            state.live("groups").tolist(), key=lambda i: (rank[table.family[i]], table.name[i])
         )
         groups = {str(table.name[i]): Group.of(state, i) for i in order}
         return NamedMapping("group", groups, spoken=True)
@@ -543,6 +544,8 @@ class Hull:
     def __contains__(self, address: object) -> bool:
         """Whether an address names a line, point, curve or group of the hull."""
         try:
+            if isinstance(address, str) and not address.strip():
+                return False  # nothing is named so
             handle(self.state, text(address, "the address", "in a look-up"))
         except UnknownNameError:
             return False
@@ -555,17 +558,47 @@ class Hull:
         """Give what an address names; see `assoc_hull.model.address`."""
         return handle(self.state, address)
 
-    def why(self, thing: Thing | FormDefinition | str) -> Why:
-        """Explain the last change of a point, curve, definition, or a line's first curve.
+    @property
+    def dirty(self) -> Dirty:
+        """What the edit that is open here has reached so far, by address, and because of what.
+
+        Nothing where none is open. `Curve.dirty` and `Point.dirty` tell the same of one object; see
+        `assoc_hull.edit.dirty_objects.Dirty`.
+        """
+        from assoc_hull.edit.dirty_objects import Dirty
+
+        return Dirty(self.document.state, self.document.state.dirty_here())
+
+    def why(
+        self,
+        thing: Thing | FormDefinition | str,
+        *,
+        step: int | None = None,
+        least: float | None = None,
+    ) -> Why:
+        """Explain a change of a point, curve, definition, or a line's first curve.
+
+        Parameters
+        ----------
+        thing : handle, address or definition
+            The object.
+        step : int or None
+            The number of an edit of the history, -1 for the last; None for the last that reached
+            the object.
+        least : float or None, m
+            Causes that moved less are left out, and counted. None: where an edit set points that
+            nobody named, as a pull does, those below a hundredth of the largest.
 
         Raises
         ------
         UnknownNameError, ForeignPointError, BadInputError
-            Nothing that this hull has, or a group.
+            Nothing that this hull has, or a group; an edit that the history does not have.
         """
         from assoc_hull.edit.explain.causes import node_of, why
 
-        return why(self.document, node_of(self.state, thing))
+        if least is not None:
+            not_negative(least, "least", "in why", unit="m")
+        return why(self.document, node_of(self.state, thing), step, least)
 
     def check(self, notes: bool = False) -> tuple[Finding, ...]:
         """Give what is wrong with the hull; empty if nothing is."""
@@ -2299,6 +2332,7 @@ features
         workers: int | None = None,
         cluster: object = None,
         progress: Callable[[str, int, int], None] | None = None,
+        fair: float | bool = False,
     ) -> Study[Hull]:
         """Make many variants of a hull: certified, lofted again, checked, measured.
 
@@ -2340,6 +2374,8 @@ features
             cores; the address of a scheduler, or a client, uses the workers that it has.
         progress : callable
             Is called with what is done and how fast, how many variants are, and of how many.
+        fair : False
+            A study fairs no followers: vary the rows that matter with ``fair=True``.
 
         Returns
         -------
@@ -2376,6 +2412,11 @@ features
         from assoc_hull.hull.studies import make_study
         from assoc_hull.study.design import OUTPUTS, StudyDesign
 
+        if fair is not False:
+            raise BadInputError(
+                "a study fairs no followers", "in study",
+                "leave fair out, and make what matters by hull.vary(set=..., fair=True)",
+            )  # fmt: skip
         design = StudyDesign.of(
             set=set, reach=reach, free=free, bounds=bounds, layers=layers,
             outputs=OUTPUTS if outputs is None else outputs, layout=layout,

@@ -97,6 +97,41 @@ class HullPictures:
             self.hull, path, paper=paper, title=title, highlight=highlight, heat=heat, x=x
         )
 
+    def dirty(
+        self,
+        path: Path_ | None = None,
+        *,
+        paper: PaperName = "A3",
+        title: str | None = None,
+        x: tuple[float, float] | None = None,
+    ) -> Figure:
+        """Draw the lines plan inside an edit: what it has reached is tinted, points are dots.
+
+        The block names what was asked for, and counts what it has reached. Outside an edit nothing
+        is tinted.
+
+        Parameters
+        ----------
+        path, paper, title, x
+            As for all pictures.
+
+        Raises
+        ------
+        BadInputError
+            No line lies between the stations.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("fuller") as edit:
+        ...     edit.pull("WL 2.5 x ST 7", 0.01)
+        ...     figure = hull.plot.dirty(paper="A4")
+        """
+        from assoc_hull.plot.lines_plan.dirty_lines import dirty_plan
+
+        return dirty_plan(self.hull, path, paper=paper, title=title, x=x)
+
     def combs(
         self,
         path: Path_ | None = None,

@@ -198,6 +198,11 @@ class Labels(Sequence[str]):
         self._count = first + len(texts)
         self[first:] = texts
 
+    @property
+    def given(self) -> dict[int, str]:
+        """Those that are not empty, by row."""
+        return self._given
+
     def __len__(self) -> int:
         return self._count
 

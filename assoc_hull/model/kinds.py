@@ -19,7 +19,7 @@ import attrs
 
 from assoc_hull.arguments import no_member
 
-__all__ = ["FAMILIES", "BoundaryKind", "Family", "Role", "Sort", "State"]
+__all__ = ["FAMILIES", "OWN", "BoundaryKind", "Family", "Role", "Sort", "State"]
 
 
 class Sort(IntEnum):
@@ -85,6 +85,9 @@ class Family:
     rank: int
     axis: int | None
 
+
+OWN = "own"
+"""Stands for the family of a group that a designer made: its lines are of several."""
 
 FAMILIES = {
     family.name: family

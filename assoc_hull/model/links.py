@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import groupby
+
 import attrs
 import numpy as np
 
@@ -9,29 +11,119 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.plane import AXES
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import HullState, Ruling
 
 __all__ = [
     "PointsOnCurve",
+    "crossing_ways",
     "defines",
     "free_axes",
     "generates",
     "generates_on",
+    "holders",
     "latent_curves",
+    "live_group",
+    "named_lines",
     "point_positions",
     "points_on",
 ]
 
 
-def generates(state: HullState, line_a: int, line_b: int) -> tuple[bool, bool]:
-    """Tell whether line a generates points on line b, and b on a."""
+def generates(
+    state: HullState, line_a: int, line_b: int, place: FloatArray | None = None
+) -> tuple[bool, bool]:
+    """Tell whether line a generates points on line b, and b on a.
+
+    Where lines rule by regions it hangs on the place (3,), m; without one the association of the
+    groups tells.
+    """
     names = [state.groups.name[int(state.lines.group[line])] for line in (line_a, line_b)]
+    found = False, False
     for link in state.associations:
         if [link.a, link.b] == names:
-            return True, link.two_way
+            found = True, link.two_way
         if [link.b, link.a] == names:
-            return link.two_way, True
-    return False, False
+            found = link.two_way, True
+    if place is None or not state.rulings or found == (False, False):
+        return found
+    ways = np.array([found])
+    _rule(state, np.array([[line_a, line_b]]), place[None], ways)
+    return bool(ways[0, 0]), bool(ways[0, 1])
+
+
+def crossing_ways(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell of crossings (k,) whether a generates points on b, and b on a, (k, 2)."""
+    lines = state.curves.line[state.rows.curve[rows]].reshape(-1, 2)
+    pairs, which = np.unique(lines, axis=0, return_inverse=True)
+    known = [generates(state, a, b) for a, b in pairs.tolist()]
+    found = np.array(known, np.bool_).reshape(-1, 2)[which.reshape(-1)]
+    if state.rulings and len(rows):
+        _rule(state, lines, point_positions(state, rows, np.zeros(len(rows), np.int64)), found)
+    return found
+
+
+def named_lines(state: HullState, name: str) -> IntArray:
+    """Give the lines (k,) of a group, by its name, or one line, by its key; ascending."""
+    live, table = state.live("lines"), state.groups
+    keys = {state.lines.key[line]: line for line in live.tolist()}
+    found, names, seen = set[int](), [name], set[str]()
+    while names:
+        each = names.pop()
+        if each in keys:
+            found.add(keys[each])
+            continue
+        group = live_group(state, each)
+        if group is None or each in seen:
+            continue
+        seen.add(each)
+        names += table.members[group]
+        found |= set(live[state.lines.group[live] == group].tolist())
+    return np.array(sorted(found), np.int64)
+
+
+def live_group(state: HullState, name: str) -> int | None:
+    """Give the number of a group; None if there is none of the name."""
+    live = state.live("groups").tolist()
+    return next((group for group in live if state.groups.name[group] == name), None)
+
+
+def holders(state: HullState, name: str) -> IntArray:
+    """Give a designer's own groups that hold a line, by its key, or a group, by its name."""
+    live = state.live("groups").tolist()
+    mine = [group for group in live if name in state.groups.members[group]]
+    return np.array(sorted(mine, key=lambda group: str(state.groups.name[group])), np.int64)
+
+
+def _rule(
+    state: HullState, lines: IntArray, places: FloatArray, ways: np.typing.NDArray[np.bool_]
+) -> None:
+    """Let rulings change the ways (k, 2) of pairs of associated lines (k, 2) at places (k, 3)."""
+    open_ = ways.any(axis=1)
+    for _, statement in groupby(state.rulings, key=lambda each: frozenset((each.a, each.b))):
+        rulings = list(statement)
+        members = {n: named_lines(state, n) for n in (rulings[0].a, rulings[0].b)}
+        # On a border the box below goes first; what is left may lie on the lowest one of all.
+        for closed in (False, True):
+            for each in rulings:
+                a, b = members[each.a], members[each.b]
+                ahead = np.isin(lines[:, 0], a) & np.isin(lines[:, 1], b)
+                back = np.isin(lines[:, 0], b) & np.isin(lines[:, 1], a)
+                hit = open_ & (ahead | back) & _held(each, places, closed=closed)
+                ways[hit, 0] = ahead[hit] | each.two_way
+                ways[hit, 1] = back[hit] | each.two_way
+                open_ &= ~hit
+
+
+def _held(ruling: Ruling, places: FloatArray, *, closed: bool) -> np.typing.NDArray[np.bool_]:
+    """Tell which places lie in the box of a ruling; its lower sides count if it is `closed`."""
+    found = np.ones(len(places), np.bool_)
+    for axis, (low, high) in enumerate(zip(ruling.low, ruling.high, strict=True)):
+        at = places[:, axis]
+        if low is not None:
+            found &= (at >= low) if closed else (at > low)
+        if high is not None:
+            found &= at <= high
+    return found
 
 
 _PARALLEL = 1e-9

@@ -22,7 +22,7 @@ from assoc_hull.model.births import Pair
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.keys import crossing_key
-from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.kinds import OWN, Role, Sort
 from assoc_hull.model.tables import Association, Ends, Featured, Formed, HullState, Produced
 
 __all__ = ["CrossingSpec", "Maker", "PointSpec"]
@@ -105,6 +105,12 @@ class Maker:
         self.journal.set(self.state.groups.name, [number], [name])
         self.journal.set(self.state.groups.family, [number], [family])
         self.journal.put(self.state.groups.alive, [number], [True])
+        return number
+
+    def own_group(self, name: str, members: tuple[str, ...]) -> int:
+        """Add a group of a designer's own, of lines by key and groups by name."""
+        number = self.group(name, OWN)
+        self.journal.set(self.state.groups.members, [number], [members])
         return number
 
     def associate(self, link: Association) -> None:
@@ -245,6 +251,41 @@ class Maker:
         put(table.reader, rows, [(spec.curve, -1) for spec in specs])
         put(table.kind, rows, [(spec.kind, 0) for spec in specs])
         put(table.direction, rows, _stack([(spec.direction, (0.0, 0.0, 0.0)) for spec in specs]))
+        return rows
+
+    def stand_ins(self, crossings: IntArray, sides: IntArray) -> IntArray:
+        """Add adopted points that stand in for crossings (k,), on the curves of their sides (k,).
+
+        The same one comes back where it was there before and was taken out.
+        """
+        table = self.state.rows
+        there = {(table.stands_for[row], int(table.curve[row, 0])): row
+                 for row in sorted(table.stands_for.data.given)}  # fmt: skip
+        found: list[int] = []
+        for row, side in zip(crossings.tolist(), sides.tolist(), strict=True):
+            curve, title = int(table.curve[row, side]), str(table.key[row])
+            old = there.get((title, curve), -1)
+            if old < 0 or table.alive[old]:
+                wish = f"{self.state.curves.key[curve]} for {title}"
+                old = int(self.journal.grow(table, 1)[0])
+                self.journal.set(table.key, [old], [self._fresh(wish, table.key.data)])
+                self.journal.set(table.stands_for, [old], [title])
+            found.append(old)
+        rows, put = np.array(found, np.int64), self.journal.put
+        curve = table.curve[crossings, sides]
+        none = np.full(len(rows), -1)
+        put(table.alive, rows, True)
+        put(table.sort, rows, int(Sort.ADOPTED))
+        put(table.curve, rows, np.column_stack([curve, none]))
+        put(table.reader, rows, np.column_stack([curve, none]))
+        put(table.kind, rows, np.column_stack([table.kind[crossings, sides], none * 0]))
+        direction = np.zeros((len(rows), 2, 3))
+        direction[:, 0] = table.direction[crossings, sides]
+        put(table.direction, rows, direction)
+        put(table.xyz, rows, table.xyz[crossings])
+        put(table.base, rows, table.xyz[crossings])
+        put(table.faired, rows, table.faired[crossings])
+        put(table.anchor, rows, -1)
         return rows
 
     def define(self, curve: int, rows: ArrayLike) -> None:

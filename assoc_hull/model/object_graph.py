@@ -90,7 +90,7 @@ def object_graph(state: HullState) -> networkx.MultiDiGraph[str]:
         Nodes are keys, with ``kind`` (group, line, curve, point, definition), ``name``, and for
         curves and points ``state``, ``revision`` and ``role``. Edges have a ``kind``:
 
-        - ``membership``: from a line to its group, from a curve to its line;
+        - ``membership``: from a line or a group to its groups, from a curve to its line;
         - ``container``: from a point to the curve it lies on;
         - ``parent``: from a point to the curve that generated it;
         - ``friend``: between the two points of a crossing, both ways;
@@ -153,6 +153,9 @@ def _add_lines(
         found.add_node(key, kind="line", name=book.line_name(line))
         if group >= 0:
             found.add_edge(key, state.groups.name[group], kind="membership")
+    for group in order.groups.tolist():
+        for name in state.groups.members[group]:
+            found.add_edge(name, state.groups.name[group], kind="membership")
 
 
 def _add_curves(

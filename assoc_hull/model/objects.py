@@ -29,19 +29,25 @@ from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import curvature, evaluate, sample
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.address import AddressBook, ResolvedAddress, resolve_address
+from assoc_hull.model.dirty_cause import DirtyCause, cause_of
 from assoc_hull.model.feature_geometry import line_numbers
 from assoc_hull.model.features import Feature, Place
 from assoc_hull.model.gaps import tangents
-from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
+from assoc_hull.model.kinds import OWN, BoundaryKind, Role, Sort, State
 from assoc_hull.model.links import (
+    crossing_ways,
     defines,
     free_axes,
     generates_on,
+    holders,
     latent_curves,
+    live_group,
+    named_lines,
     point_positions,
     points_on,
 )
 from assoc_hull.model.named_mapping import NamedMapping
+from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
 __all__ = [
@@ -120,6 +126,20 @@ class Handle:
         """
         return self._here()[1]
 
+    @property
+    def container(self) -> Handle | None:
+        """What it is a part of; None for the outermost."""
+        return None
+
+    @property
+    def holders(self) -> tuple[Group, ...]:
+        """The groups of a designer's own that hold it, by name."""
+        tables, row = self._here()
+        if self._table not in ("lines", "groups"):
+            return ()
+        name = tables.groups.name[row] if self._table == "groups" else self.id
+        return tuple(Group.of(tables, group) for group in holders(tables, name).tolist())
+
     def _here(self) -> tuple[HullState, int]:
         """Give tables and `row`, for all that one call reads: another thread may commit meanwhile.
 
@@ -147,6 +167,11 @@ def is_in(handle: Handle, tables: HullState) -> bool:
     if number >= table.count or not table.alive[number]:
         return False
     return handle._table == "groups" or bool(table.key[number] == handle.id)
+
+
+def _dirty(handle: Handle, node: int) -> DirtyCause | None:
+    """Give because of what a node of whoever edits here is dirty."""
+    return cause_of(handle.home.seen_here(), handle.home.dirty_here(), node)
 
 
 # --------------------------------------------------------------------------------------
@@ -254,6 +279,11 @@ class Point(Handle):
         return Crossing(tables, row, self.id)
 
     @property
+    def container(self) -> Curve:
+        """The curve it lies on."""
+        return self.container_curve
+
+    @property
     def container_curve(self) -> Curve:
         """The curve it lies on."""
         tables, row = self._here()
@@ -292,6 +322,11 @@ class Point(Handle):
         """``"clean"``, ``"failed"`` or ``"blocked"``."""
         tables, row = self._here()
         return State(int(tables.rows.state[row])).name.lower()
+
+    @property
+    def dirty(self) -> DirtyCause | None:
+        """Because of what it is dirty: reached by what the open edit asked for; None if clean."""
+        return _dirty(self, Node.point(self.number))
 
     @property
     def revision(self) -> int:
@@ -376,6 +411,11 @@ class Crossing(Handle):
         return value if np.isfinite(value) else None
 
     @property
+    def dirty(self) -> DirtyCause | None:
+        """Because of what it is dirty: reached by what the open edit asked for; None if clean."""
+        return _dirty(self, Node.point(self.number))
+
+    @property
     def state(self) -> str:
         """``"clean"``, ``"failed"`` or ``"blocked"``."""
         tables, row = self._here()
@@ -430,6 +470,11 @@ class Curve(Handle):
         return Line.of(tables, tables.line_of(row))
 
     @property
+    def container(self) -> Line:
+        """The line it belongs to."""
+        return self.line
+
+    @property
     def points(self) -> tuple[Point, ...]:
         """All its points in order along it, those that define it and those that lie on it."""
         return _points_along(*self._here())
@@ -451,6 +496,9 @@ class Curve(Handle):
         there = tables.rows.curve.data[on.row, 1 - on.side]
         line = tables.curves.line.data[there]
         met = (there >= 0) & np.isin(tables.lines.group.data[line], reach)
+        if tables.rulings:
+            met = there >= 0
+            met[met] = crossing_ways(tables, on.row[met])[np.arange(met.sum()), on.side[met]]
         actual = _handles(tables, on.row[met], 1 - on.side[met])
         latent = latent_curves(tables, row).tolist()
         return GeneratedPoints(actual, tuple(_curve(tables, curve) for curve in latent))
@@ -526,6 +574,11 @@ class Curve(Handle):
         return State(int(tables.curves.state[row])).name.lower()
 
     @property
+    def dirty(self) -> DirtyCause | None:
+        """Because of what it is dirty: reached by what the open edit asked for; None if clean."""
+        return _dirty(self, Node.curve(self.number))
+
+    @property
     def revision(self) -> int:
         """Rises by one each time its geometry really changed."""
         tables, row = self._here()
@@ -553,6 +606,11 @@ class Line(Handle):
         """The group it belongs to."""
         tables, row = self._here()
         return Group.of(tables, int(tables.lines.group[row]))
+
+    @property
+    def container(self) -> Group:
+        """The group of its family; `holders` are a designer's own."""
+        return self.group
 
     @property
     def plane(self) -> Plane | None:
@@ -597,6 +655,12 @@ class Line(Handle):
         tables, curves = self._curves()
         return tuple(point for curve in curves for point in _points_along(tables, curve))
 
+    @property
+    def dirty(self) -> DirtyCause | None:
+        """Because of what its first dirty curve is that; None if all are clean."""
+        causes = (curve.dirty for curve in self.curves)
+        return next((each for each in causes if each is not None), None)
+
     def meet(self, plane: Plane | tuple[ArrayLike, float]) -> FloatArray:
         """Give the places where its curves pass a plane, (k, 3), m; frozen.
 
@@ -625,7 +689,10 @@ class Line(Handle):
 
 @attrs.frozen(repr=False)
 class Group(Handle):
-    """A group of lines: the unit of associations and of global modifications."""
+    """A group of lines: the unit of associations and of global modifications.
+
+    A group of a designer's own (`Edit.group`) holds lines of any family, and groups.
+    """
 
     _table: ClassVar[str] = "groups"
 
@@ -637,22 +704,43 @@ class Group(Handle):
 
     @property
     def family(self) -> str:
-        """The family of its lines, for instance ``"waterlines"``."""
+        """The family of its lines, for instance ``"waterlines"``; ``"own"`` of one's own."""
         tables, row = self._here()
         return str(tables.groups.family[row])
 
     @property
-    def lines(self) -> Mapping[str, Line]:
-        """Its lines by name, by position; read-only."""
+    def members(self) -> tuple[Line | Group, ...]:
+        """The lines and groups that it holds itself, in the order in which they were given."""
         tables, row = self._here()
-        table = tables.lines
-        live = tables.live("lines")
-        mine = live[table.group[live] == row]
+        if tables.groups.family[row] != OWN:
+            return tuple(self.lines.values())
+        numbers = {tables.lines.key[line]: line for line in tables.live("lines").tolist()}
+        found = list[Line | Group]()
+        for name in tables.groups.members[row]:
+            if name in numbers:
+                found.append(Line.of(tables, numbers[name]))
+            elif (group := live_group(tables, name)) is not None:
+                found.append(Group.of(tables, group))
+        return tuple(found)
+
+    @property
+    def lines(self) -> Mapping[str, Line]:
+        """Its lines by name, those of the groups in it too; by family and position; read-only."""
+        tables, row = self._here()
+        table, book = tables.lines, AddressBook(tables)
+        mine = named_lines(tables, str(tables.groups.name[row])).tolist()
         # space curves have no position and come last
         place = np.where(table.planar.data, table.offset.data, np.inf).tolist()
-        order = sorted(mine.tolist(), key=lambda i: (place[i], table.key[i]))
-        lines = {table.name[i]: Line.of(tables, i) for i in order}
-        return NamedMapping("line", lines, spoken=True)
+        own = tables.groups.family[row] == OWN
+        rank = {line: tables.family(line).rank if own else 0 for line in mine}
+        order = sorted(mine, key=lambda i: (rank[i], place[i], table.key[i]))
+        names = {i: book.line_name(i) if own else table.name[i] for i in order}
+        return NamedMapping("line", {names[i]: Line.of(tables, i) for i in order}, spoken=True)
+
+    @property
+    def container(self) -> Group | None:
+        """The group that holds it, the first by name; None if none does."""
+        return next(iter(self.holders), None)
 
 
 # --------------------------------------------------------------------------------------

@@ -36,6 +36,7 @@ from assoc_hull.graph.table import (
     writes_begun,
 )
 from assoc_hull.model.births import Births
+from assoc_hull.model.dirty_nodes import CLEAN, DirtyNodes
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.keys import KeyColumn, LabelColumn, keys, labels
@@ -46,6 +47,7 @@ __all__ = [
     "DECKS",
     "TABLES",
     "Association",
+    "Corner",
     "CurveIntersections",
     "Curves",
     "Ends",
@@ -59,6 +61,7 @@ __all__ = [
     "Particulars",
     "Produced",
     "Rows",
+    "Ruling",
     "copy_into",
     "copy_state",
     "state_of",
@@ -66,7 +69,7 @@ __all__ = [
 
 T = TypeVar("T")
 
-_OF_THIS_PROCESS = ("number", "_live", "_published", "_written_here", "_looked")
+_OF_THIS_PROCESS = ("number", "_live", "_published", "_written_here", "_looked", "_reached")
 
 _GATE = Gate()
 """Held for the moment in which a state is published, or one is taken."""
@@ -143,6 +146,33 @@ class Association:
     a: str = attrs.field(validator=checked(word, "in an association"))
     b: str = attrs.field(validator=checked(word, "in an association"))
     two_way: bool = attrs.field(default=True, validator=checked(flag, "in an association"))
+
+
+Corner = tuple[float | None, float | None, float | None]
+
+
+@attrs.frozen
+class Ruling:
+    """Within a box, lines of `a` generate points on those of `b`, and back if `two_way`.
+
+    A crossing follows the first ruling that holds it, else the association of its groups. Of two
+    boxes that share a border the lower one holds what lies on it.
+
+    Attributes
+    ----------
+    a, b : str
+        Names of groups, or keys of lines.
+    two_way : bool
+        Whether `b` generates on `a` as well.
+    low, high : tuple of three float or None, m
+        Corners of the box; None where it has no bound.
+    """
+
+    a: str = attrs.field(validator=checked(word, "in a ruling"))
+    b: str = attrs.field(validator=checked(word, "in a ruling"))
+    two_way: bool = attrs.field(default=True, validator=checked(flag, "in a ruling"))
+    low: Corner = (None, None, None)
+    high: Corner = (None, None, None)
 
 
 def _end_kinds(_: object, __: object, value: object) -> None:
@@ -234,7 +264,9 @@ class Rows(Table):
     the line b is always made through the crossing. ``override``: the role by the designer's word.
     ``gap`` and ``limit`` are of watched crossings. An adopted point rides from ``base`` with the
     points ``anchor``, which lay at ``anchor_from`` then; the second one counts ``anchor_weight``.
-    ``faired``: how far fairing has taken a point from the value that was given for it.
+    ``faired``: how far fairing has taken a point from the value that was given for it. A crossing
+    that an association was switched at has the role of before as ``first_role``; ``stands_for`` of
+    a stand-in is the key of its crossing, which may be dead.
     """
 
     key: KeyColumn = keys()
@@ -261,7 +293,9 @@ class Rows(Table):
     base: VectorColumn[np.float64] = vectors(np.float64, 3, sparse=True)
     faired: VectorColumn[np.float64] = vectors(np.float64, 3, sparse=True)
     state: NumberColumn[np.int8] = numbers(np.int8)
+    first_role: NumberColumn[np.int8] = numbers(np.int8, -1, sparse=True)
     label: LabelColumn = labels()
+    stands_for: LabelColumn = labels()
 
 
 @attrs.frozen(eq=False)
@@ -297,11 +331,12 @@ class Lines(Table):
 
 @attrs.frozen(eq=False)
 class Groups(Table):
-    """Groups of lines."""
+    """Groups of lines; ``members`` of a designer's own are keys of lines and names of groups."""
 
     name: ValueColumn[str] = values("")
     family: ValueColumn[str] = values("")
     alive: NumberColumn[np.bool_] = numbers(np.bool_)
+    members: ValueColumn[tuple[str, ...]] = values(())
 
 
 @attrs.frozen(eq=False)
@@ -333,6 +368,7 @@ class HullSettings(Table):
     """What belongs to the hull as a whole; one row."""
 
     associations: ValueColumn[tuple[Association, ...]] = values(())
+    rulings: ValueColumn[tuple[Ruling, ...]] = values(())
     births: ValueColumn[Births] = values_given()
     failed: ValueColumn[tuple[int, ...]] = values(())
     particulars: ValueColumn[Particulars] = values_given()
@@ -387,6 +423,7 @@ class HullState:
     _published: HullState | None = attrs.field(default=None, init=False, repr=False)
     _written_here: Callable[[], bool] | None = attrs.field(default=None, init=False, repr=False)
     _looked: int = attrs.field(default=-1, init=False, repr=False)
+    _reached: Callable[[], DirtyNodes] | None = attrs.field(default=None, init=False, repr=False)
 
     def __attrs_post_init__(self) -> None:
         if not self.settings.count:
@@ -434,6 +471,15 @@ class HullState:
         mine = self._written_here
         return self if mine is not None and mine() else self.published()
 
+    def dirty_here(self) -> DirtyNodes:
+        """Give what is dirty to whoever writes these tables; to all others nothing is."""
+        mine, reached = self._written_here, self._reached
+        return reached() if reached is not None and mine is not None and mine() else CLEAN
+
+    def tell_dirty(self, reached: Callable[[], DirtyNodes]) -> None:
+        """Ask this for what is dirty, until writing ends."""
+        self._reached = reached
+
     def begin_writing(self, written_here: Callable[[], bool]) -> None:
         """Keep what is published, for all but those of whom `written_here` is true."""
         _GATE.alone(partial(self._begin_writing, written_here))
@@ -447,7 +493,7 @@ class HullState:
         _GATE.alone(self._end_writing)
 
     def _end_writing(self) -> None:
-        self._written_here = None
+        self._written_here = self._reached = None
         self._published_now()
 
     def snapshot(self) -> HullState:
@@ -473,6 +519,7 @@ class HullState:
             dict(self.revision_curve),
         )
         found._live, found._published, found._written_here, found._looked = live, None, None, -1
+        found._reached = None
         found.memory = Derived()
         # What was made of tables that may be written to is not handed on: it may look at them.
         if (source := self if self._live is not None else before) is not None:
@@ -488,7 +535,7 @@ class HullState:
         for name, value in state.items():
             setattr(self, name, value)
         self._live, self._published, self._written_here, self._looked = None, None, None, -1
-        self.number = 0
+        self._reached, self.number = None, 0
 
     def derived(
         self, key: Key, depends_on: tuple[object, ...], make: Callable[[], T], most: int = 64
@@ -505,6 +552,11 @@ class HullState:
     def associations(self) -> tuple[Association, ...]:
         """The declared associations."""
         return self.settings.associations[0]
+
+    @property
+    def rulings(self) -> tuple[Ruling, ...]:
+        """Which lines rule where, the statement that was made last first."""
+        return self.settings.rulings[0]
 
     @property
     def features(self) -> tuple[Feature, ...]:

@@ -27,7 +27,7 @@ from assoc_hull.model.tables import HullState
 from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.aiming.reach_targets import SettledPlan, settle_plan
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
-from assoc_hull.variation.carrying.carry_stages import StagedCarry
+from assoc_hull.variation.carrying.carry_stages import DoneStage, StagedCarry
 from assoc_hull.variation.comparing.line_fairness import (
     FairnessComparison,
     LineFairness,
@@ -82,12 +82,14 @@ def choose_plan(
     best = list[tuple[float, int, SettledPlan]]()
     refusal: tuple[AssocHullError, StagedCarry] | None = None
     tried, there = set[tuple[Plan, bool]](), None
-    left = _candidates(ask)
+    left, done = _candidates(ask), list[DoneStage]()
     while left:
         plan, together = left.pop(0)
         if (plan, together) in tried:
             continue
-        carry = StagedCarry(edit, ask, plan, not best, together, lines=lines)
+        carry = StagedCarry(
+            edit, ask, plan, not best, together, base=room, lines=lines, done=done
+        )  # fmt: skip
         try:
             if best and not together:  # one round shows whether it is worth more
                 there = None
@@ -113,7 +115,7 @@ def choose_plan(
         raise _refused(edit, room, ask, *refusal) from None
     found = min(best, key=lambda each: each[:2])[2]
     if found is not there:
-        again = attrs.evolve(found.carry, carried=[], refused=None)
+        again = attrs.evolve(found.carry, carried=[], refused=None)  # what is done is shared
         found = settle_plan(again, room)
     return found, _judged(edit, before)[0]
 

@@ -119,7 +119,9 @@ def drag(hull: ah.Hull, amount: float) -> Act:
     def act(edit: Edit, row: int) -> None:
         point = Point.of(hull.state, row)
         target = point.position + amount * normal_step(hull, row)
-        edit.move(point, **{axis: float(target["xyz".index(axis)]) for axis in point.free})
+        edit.move(
+            point, lead=False, **{axis: float(target["xyz".index(axis)]) for axis in point.free}
+        )
 
     return act
 

@@ -246,7 +246,7 @@ def raise_bulb(hull: ah.Hull, by: float) -> EditReport:
             other = point.parent_curve
             across = other is not None and other.line.group.name == "sections"
             if across and 94.5 < point.x < 97.5 and 5.0 < point.z < 6.1:
-                edit.move(point, z=point.z + by)
+                edit.move(point, z=point.z + by, lead=False)
     assert edit.report is not None
     return edit.report
 

@@ -80,4 +80,4 @@ def _alone(ship: ah.Hull, point: str, how: str, asked: dict[str, float]) -> None
         if how == "pull":
             edit.pull(point, asked["d"])
         else:
-            edit.move(point, **asked)
+            edit.move(point, lead=False, **asked)

@@ -140,7 +140,7 @@ def test_dragging_a_driven_crossing_names_its_driver(series60_70: ah.Hull) -> No
     point = Point.of(series60_70.state, driven)
     before = series60_70.fingerprint
     with pytest.raises(ah.errors.PointRoleError) as caught, series60_70.edit("drag") as edit:
-        edit.move(point, **{axis: 0.0 for axis in point.free})
+        edit.move(point, lead=False, **{axis: 0.0 for axis in point.free})
     assert point.driver is not None
     assert caught.value.driver == point.driver.line.name
     assert all(word in str(caught.value) for word in ("driver", "pull", "shared"))

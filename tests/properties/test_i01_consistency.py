@@ -99,7 +99,7 @@ def test_a_value_set_through_one_friend_is_read_through_the_other() -> None:
     axis = one.free[0]
     for point, value in ((one, getattr(one, axis) + 0.01), (other, getattr(one, axis) - 0.01)):
         with hull.edit("move") as edit:
-            edit.move(point, **{axis: value})
+            edit.move(point, lead=False, **{axis: value})
         assert getattr(one, axis) == getattr(other, axis) == value
         for curve in (crossing.a, crossing.b):
             assert (curve.spline.xyz == one.position).all(axis=1).sum() == 1

@@ -80,7 +80,7 @@ def test_writing_the_value_that_is_there_changes_nothing() -> None:
     before = snapshot(hull)
     point = next(p for p in live_points(hull, "crossing") if p.crossing_role == "shared" and p.free)
     with hull.edit("nothing") as edit:
-        edit.move(point, **{axis: getattr(point, axis) for axis in point.free})
+        edit.move(point, lead=False, **{axis: getattr(point, axis) for axis in point.free})
     assert edit.report is not None
     assert edit.report.relofted == ()
     assert_local(hull, before)

@@ -75,7 +75,7 @@ def needless(report: EditReport, wanted: set[str], task: Task) -> set[str]:
     return set(report.relofted) - wanted
 
 
-MOVES_IN_STEPS = {"pull", "reshape", "straighten", "round", "spread"}
+MOVES_IN_STEPS = {"pull", "reshape", "lead", "straighten", "round", "spread"}
 
 
 @settings(max_examples=25)
@@ -139,7 +139,7 @@ def test_a_value_that_comes_out_as_it_was_stops_the_update() -> None:
     above, beside = (hull.lines[name].curves[0].id for name in ("WL 5.000", "WL 2.500"))
     assert {above, beside} <= closure(hull, {low.id})
     with hull.edit("below the knuckle") as edit:
-        edit.move(low, y=low.y + 0.01, z=low.z)
+        edit.move(low, y=low.y + 0.01, z=low.z, lead=False)
     report = edit.report
     assert report is not None
     assert report.cut_off > 0

@@ -56,7 +56,7 @@ def move(hull: ah.Hull, to: dict[str, dict[str, float]], side: int = 0) -> bool:
                 assert isinstance(point, Point)
                 handle = point if side == 0 else point.friend_point
                 assert handle is not None
-                edit.move(handle, **value)
+                edit.move(handle, lead=False, **value)
     except ah.errors.RefusedEditError:
         return False
     report = edit.report

@@ -25,7 +25,7 @@ from tests.properties.test_published_states import content
 
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 ROOT = str(Path(ah.__file__).parent)
-COUNT = 400 if LONG else 15
+COUNT = 400 if LONG else 10
 """Interrupts an act."""
 
 
@@ -36,7 +36,7 @@ def _move(hull: ah.Hull) -> None:
 
 def _insert(hull: ah.Hull) -> None:
     with hull.edit("insert") as edit:
-        edit.insert("ST 7", (35.0, 0.43, 0.3))
+        edit.insert("ST 7", (35.0, 0.43, 0.3), lead=False)
 
 
 def _undo(hull: ah.Hull) -> None:
@@ -63,7 +63,7 @@ def _refused(hull: ah.Hull) -> None:
 
 def _given_up(hull: ah.Hull) -> None:
     with contextlib.suppress(LookupError), hull.edit("given up") as edit:
-        edit.insert("ST 7", (35.0, 0.5, 0.35))
+        edit.insert("ST 7", (35.0, 0.5, 0.35), lead=False)
         raise LookupError
 
 

@@ -12,6 +12,7 @@ SHUFFLES = """
 import random, sys
 from importlib import import_module
 import assoc_hull.edit.adoption.adopt_lines as home
+from assoc_hull.hull import Hull
 from assoc_hull.model.definition.fingerprint import fingerprint
 
 seed = int(sys.argv[1])
@@ -38,7 +39,14 @@ for name, make in makers.items():
     # Ships take long: one shuffle of one of them in every process.
     for turn in range({"series60-060": seed % 2, "series60-070": 1 - seed % 2, "wigley": 2}[name]):
         chance = random.Random(1000 * seed + turn)
-        print(name, fingerprint(make()))
+        state = make()
+        print(name, fingerprint(state))
+        if name == "wigley":
+            hull = Hull(state)
+            with hull.edit("lead") as edit:
+                edit.lead("WL 2.5", [(36.0, 3.0, 2.5), (58.0, 3.1, 2.5)])
+                edit.lead("ST 9", [(45.0, 3.3, 2.8)])
+            print("led", hull.fingerprint)
 chance = random.Random(seed)
 if seed % 2:
     carrier = import_module("assoc_hull.shipped.bulk_carrier_207k").bulk_carrier_207k_adopted
@@ -64,7 +72,7 @@ def printed() -> list[list[str]]:
 
 
 @pytest.mark.parametrize(
-    ("name", "count"), [("wigley", 8), ("series60-060", 2), ("series60-070", 2)]
+    ("name", "count"), [("wigley", 8), ("led", 8), ("series60-060", 2), ("series60-070", 2)]
 )
 def test_all_shuffles_in_four_processes_give_one_fingerprint(
     printed: list[list[str]], name: str, count: int

@@ -156,7 +156,7 @@ def test_inside_an_edit_the_hull_reads_as_published() -> None:
 def insert_and_fail(hull: ah.Hull, made: list[ah.Point], before: object, count: int) -> None:
     """Insert a point, look at what is seen of it, and ask for what is refused."""
     with hull.edit("failing") as edit:
-        point = edit.insert("ST 7", (35.0, 2.2, 1.3))
+        point = edit.insert("ST 7", (35.0, 2.2, 1.3), lead=False)
         made.append(point)
         assert point.alive
         assert point.x == 35.0
@@ -186,7 +186,7 @@ def test_what_an_edit_has_deleted_is_not_given_to_it_again() -> None:
     """A handle that the published hull still knows is one on nothing in this edit."""
     hull = ah.examples.wigley()
     with hull.edit("insert") as edit:
-        point = edit.insert("ST 7", (35.0, 2.2, 1.3))
+        point = edit.insert("ST 7", (35.0, 2.2, 1.3), lead=False)
     with hull.edit("delete") as edit:
         edit.delete(point)
         assert point.alive
@@ -261,10 +261,10 @@ def test_one_reading_is_of_one_state(what: str, monkeypatch: pytest.MonkeyPatch)
 
 @pytest.mark.parametrize("name", ["wigley", *(["series60_70"] if LONG else [])])
 def test_readers_in_other_threads_see_committed_states_only(name: str, shipped: Shipped) -> None:
-    """Eight of them beside one writer; 60 s in the long form."""
+    """Eight of them beside one writer, which edits and takes back; 60 s in the long form."""
     hull = shipped(name)
     point = next(each for each, found in hull.points.items() if "y" in found.free and found.y > 1.0)
-    ask, seconds = _readings(hull, point), 60.0 if LONG else 4.0
+    ask, seconds = _readings(hull, point), 60.0 if LONG else 3.0
     seen: dict[str, set[object]] = {each: set() for each in ask}
     raised, over = list[BaseException](), threading.Event()
 
@@ -290,7 +290,7 @@ def test_readers_in_other_threads_see_committed_states_only(name: str, shipped: 
         thread.start()
     start, end, step = hull.points[point].y, time.monotonic() + seconds, 0
     try:
-        while (time.monotonic() < end or step < 8) and not over.is_set():
+        while (time.monotonic() < end or step < 5) and not over.is_set():
             step += 1
             if step % 4 == 0:
                 hull.undo()

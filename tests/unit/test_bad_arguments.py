@@ -112,7 +112,7 @@ HULL: dict[str, Given] = {
     "snapshot": {},
     "redo": {"n": 0},
     "find": {"address": POINT},
-    "why": {"thing": POINT},
+    "why": {"thing": POINT, "step": None, "least": 1e-4},
     "check": {"notes": False},
     "verify": {"relative": 0.0},
     "graph": {"around": POINT, "up": 1, "down": 1, "only": "two-way", "edit": None},
@@ -131,8 +131,8 @@ HULL: dict[str, Given] = {
 }  # fmt: skip
 EDIT: dict[str, Given] = {
     "fair": FAIR,
-    "move": {"point": POINT, "x": None, "y": 3.0, "z": None, "by": None},
-    "insert": {"curve": LINE, "place": PLACE},
+    "move": {"point": POINT, "x": None, "y": 3.0, "z": None, "by": None, "lead": True},
+    "insert": {"curve": LINE, "place": PLACE, "lead": True},
     "delete": {"point": POINT},
     "set_kind": {"point": POINT, "kind": "tangent", "direction": (1.0, 0.0, 0.0)},
     "pin": {"point": POINT},
@@ -155,6 +155,10 @@ EDIT: dict[str, Given] = {
     "renew_roles": {"lines": [LINE]},
     "associate": {"a": "sections", "b": "waterlines", "two_way": True},
     "dissociate": {"a": "sections", "b": "waterlines"},
+    "rule": {"a": "waterlines", "b": "sections", "where": [("waterlines", {"x": (0.0, 40.0)})]},
+    "group": {"name": "stern lines", "lines": [LINE]},
+    "regroup": {"group": "stern lines", "lines": [LINE]},
+    "ungroup": {"group": "stern lines"},
     "rename": {"obj": LINE, "name": "low"},
     "add_line": {"group": "waterlines", "position": 2.0, "name": "low"},
     "shift_line": {"line": LINE, "position": 2.4},
@@ -546,7 +550,7 @@ FLOATING: dict[str, Given] = {
     "study": {
         "set": {"breadth": 11.0}, "reach": None, "free": (), "bounds": None, "layers": (),
         "outputs": ("volume",), "layout": None, "workers": 1, "progress": None,
-        "file": None, "cluster": None,
+        "file": None, "cluster": None, "fair": False,
     },
     "shift_sections": {
         "to": None, "by": {"cb": 0.005}, "shape": "c2", "terminals": None, "fade": "b5",

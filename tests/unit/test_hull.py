@@ -69,6 +69,8 @@ def test_points_are_listed_from_one_book(hull: ah.Hull, monkeypatch: pytest.Monk
     assert "WL 2.5" not in hull.points
     number: object = 3
     assert number not in hull.points
+    assert "" not in hull
+    assert " " not in hull
 
 
 def test_a_hull_is_built_of_lines() -> None:

@@ -247,7 +247,9 @@ def _undeclared(state: HullState, book: AddressBook) -> Iterator[Finding]:
         pair = (groups[0], groups[1])
         if pair not in declared:
             declared[pair] = generates(state, *lines)
-        text = _against(declared[pair], Role(int(state.rows.role[row])))
+        # A crossing that slides out of a box keeps its role.
+        both = state.rulings and any(declared[pair])
+        text = _against((True, True) if both else declared[pair], Role(int(state.rows.role[row])))
         if text and (declared[pair] == (False, False) or state.rows.override[row] < 0):
             yield row_finding(state, book, row, "association", text)
 

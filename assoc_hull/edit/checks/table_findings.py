@@ -13,7 +13,7 @@ import numpy as np
 from assoc_hull.edit.checks.finding import Finding
 from assoc_hull.geometry.curves import IntArray, PointKind
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.kinds import FAMILIES, BoundaryKind, Role, Sort, State
+from assoc_hull.model.kinds import FAMILIES, OWN, BoundaryKind, Role, Sort, State
 from assoc_hull.model.tables import HullState
 
 __all__ = ["REMEDY", "find_tables"]
@@ -107,7 +107,7 @@ def _beyond(
 def _families(state: HullState) -> Iterator[Finding]:
     for group in state.live("groups").tolist():
         family = state.groups.family[group]
-        if family not in FAMILIES:
+        if family not in FAMILIES and family != OWN:
             text = f"is of the family {family!r}, which does not exist: {REMEDY}"
             yield Finding("tables", _key(state, "groups", group), None, None, text)
 

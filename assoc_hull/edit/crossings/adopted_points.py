@@ -26,6 +26,8 @@ __all__ = [
     "link_adopted_points",
     "mend_gaps",
     "rebase_adopted_points",
+    "renew_anchors",
+    "swap_anchors",
 ]
 
 
@@ -68,23 +70,43 @@ def insert_defining_point(maker: Maker, curve: int, row: int) -> None:
 # Riding. An adopted point holds a shape that crossings alone cannot. Its place is its base plus a
 # linear blend of the displacements of its nearest driven neighbours since they were last linked;
 # so there and back is exact. A generated point does not ride, and none that was one: definitions
-# place it, or a designer did.
+# place it, or a designer did. Nor does what stands in for a crossing.
 
 
 def link_adopted_points(state: HullState, curves: IntArray, journal: Journal) -> None:
     """Link the adopted points of curves to their driven neighbours as these lie now."""
+    found = _riders(state, curves)
+    if found is None:
+        return
+    rows, owner, adopted, pair, anchor = found
+    points, alone = rows[adopted], (pair < 0).all(axis=1)
+    journal.put(state.rows.anchor, points, anchor)
+    linked = points[~alone]
+    weights = _weights(state, rows, owner, adopted[~alone], pair[~alone])
+    journal.put(state.rows.anchor_weight, linked, weights)
+    rebase_adopted_points(state, linked, journal)
+
+
+def _riders(
+    state: HullState, curves: IntArray
+) -> tuple[IntArray, IntArray, IntArray, IntArray, IntArray] | None:
+    """Find the adopted points of curves that may ride.
+
+    Gives the defining points, the index of the curve of each, and of the adopted ones the index
+    among them, that of the neighbours (k, 2), and with which of these rows they ride; -1 for none.
+    """
     parts = [state.curves.rows[curve] for curve in curves.tolist()]
     if not parts:
-        return
+        return None
     rows, size = np.concatenate(parts), np.array([len(part) for part in parts])
     owner = np.arange(len(parts)).repeat(size)
     rides = state.rows.sort[rows] == Sort.ADOPTED
-    kept = kept_rows(state)
-    if len(kept):
-        rides &= ~np.isin(rows, kept)
+    kept, stand_ins = kept_rows(state), np.array([*state.rows.stands_for.data.given], np.int64)
+    if len(kept) or len(stand_ins):
+        rides &= ~np.isin(rows, np.concatenate([kept, stand_ins]))
     adopted, others = np.flatnonzero(rides), np.flatnonzero(~rides)
     if not len(adopted):
-        return
+        return None
     after = np.searchsorted(others, adopted)
     pair = np.full((len(adopted), 2), -1)
     for side, place in enumerate((after - 1, after)):
@@ -94,12 +116,61 @@ def link_adopted_points(state: HullState, curves: IntArray, journal: Journal) ->
         pair[there[mine], side] = beside[mine]
     anchor = np.where(pair >= 0, rows[np.maximum(pair, 0)], -1)
     driven = (anchor >= 0) & (state.rows.driver[anchor] >= 0)
-    points, alone = rows[adopted], (pair < 0).all(axis=1)
-    journal.put(state.rows.anchor, points, np.where(driven, anchor, -1))
-    linked = points[~alone]
-    weights = _weights(state, rows, owner, adopted[~alone], pair[~alone])
-    journal.put(state.rows.anchor_weight, linked, weights)
-    rebase_adopted_points(state, linked, journal)
+    if len(stand_ins):
+        # What rode with a crossing goes on with its stand-in.
+        driven |= np.isin(anchor, stand_ins) & (anchor == state.rows.anchor[rows[adopted]])
+    return rows, owner, adopted, pair, np.where(driven, anchor, -1)
+
+
+def swap_anchors(state: HullState, curve: int, swaps: dict[int, int], journal: Journal) -> None:
+    """Let points that rode with some go on with others, which lie where those did.
+
+    Links that say no more or less than before stay, so that there and back is exact.
+    """
+    found = _anchored(state, curve)
+    old = state.rows.anchor[found]
+    new = np.array([[swaps.get(row, row) for row in pair] for pair in old.tolist()], np.int64)
+    changed = (new.reshape(-1, 2) != old).any(axis=1)
+    journal.put(state.rows.anchor, found[changed], new[changed])
+
+
+def renew_anchors(state: HullState, curve: int, journal: Journal) -> None:
+    """Link the adopted points of a curve whose neighbours have come to be driven, or ceased to.
+
+    A link that stays is not made anew: the points keep their places, to the bit.
+    """
+    found = _riders(state, np.array([curve]))
+    if found is None:
+        return
+    rows, owner, adopted, pair, anchor = found
+    table, points = state.rows, rows[adopted]
+    changed = np.flatnonzero((anchor != table.anchor[points]).any(axis=1))
+    for i in changed.tolist():
+        point, before = int(points[i]), table.anchor[points[i]].copy()
+        journal.put(table.anchor, [point], anchor[i][None])
+        lost = before[(before >= 0) & ~np.isin(before, anchor[i])]
+        come = anchor[i][(anchor[i] >= 0) & ~np.isin(anchor[i], before)]
+        since = table.anchor_from[point].copy()
+        sides = np.flatnonzero(np.isin(before, lost) & (before >= 0))
+        still = bool((since[sides] == table.xyz[before[sides]]).all())
+        if (before < 0).all() or not still:
+            weight = _weights(state, rows, owner, adopted[[i]], pair[[i]])
+            journal.put(table.anchor_weight, [point], weight)
+            rebase_adopted_points(state, np.array([point]), journal)
+            continue
+        for side in range(2):
+            if anchor[i, side] in come:
+                since[side] = table.xyz[anchor[i, side]]
+            elif anchor[i, side] < 0:
+                since[side] = 0.0
+        journal.put(table.anchor_from, [point], since[None])
+
+
+def _anchored(state: HullState, curve: int) -> IntArray:
+    """Give the points of a curve that ride."""
+    rows: IntArray = state.curves.rows[curve]
+    found: IntArray = rows[(state.rows.anchor[rows] >= 0).any(axis=1)]
+    return found
 
 
 def _weights(

@@ -29,6 +29,7 @@ __all__ = [
     "latent_intersections",
     "make_crossing",
     "make_latent",
+    "may_define",
     "one_place",
     "rejoin_crossings",
     "role_by_rule",
@@ -191,8 +192,10 @@ def _write_crossing(
     meets_b: CurveIntersections = state.curves.meets[b]
     at = float(meets_a.parameter[spot_a]), float(meets_b.parameter[spot_b])
     line_a, line_b = state.line_of(a), state.line_of(b)
-    role = Role.WATCHED if watch else _role(state, (a, b), (line_a, line_b), at)
     spots = meets_a.xyz[spot_a], meets_b.xyz[spot_b]
+    role = Role.WATCHED
+    if not watch:
+        role = _role(state, (a, b), (line_a, line_b), at, spots[0])
     value = spots[1] if b in edited and a not in edited and role is Role.SHARED else spots[0]
     row = int(
         maker.crossings([CrossingSpec(a, b, value, role, int(meets_a.sign[spot_a]), spots)])[0]
@@ -217,12 +220,13 @@ def _role(
     curves: tuple[int, int],
     lines: tuple[int, int],
     at: tuple[float, float],
+    place: FloatArray,
     row: int = -1,
 ) -> Role:
     return role_of(
         _may_define(state, curves[0], lines[1], at[0], row),
         _may_define(state, curves[1], lines[0], at[1], row),
-        generates(state, *lines),
+        generates(state, *lines, place),
     )
 
 
@@ -245,7 +249,13 @@ def role_by_rule(state: HullState, row: int) -> Role:
         both_ways = generates(state, *lines)[1]
         shared = both_ways and _may_define(state, a, lines[1], places[0], row)
         return Role.SHARED if shared else Role.DRIVES_B
-    return _role(state, (a, b), lines, (places[0], places[1]), row)
+    return _role(state, (a, b), lines, (places[0], places[1]), _spot(state, row, 0), row)
+
+
+def may_define(state: HullState, curve: int, partner: int, row: int, side: int) -> bool:
+    """Tell whether the role rule lets a crossing define a curve, a stand-in there counted as it."""
+    at = closest_points(state.spline(curve), 0, _spot(state, row, side)[None])[0]
+    return _may_define(state, curve, partner, float(at[0]), row)
 
 
 def _may_define(state: HullState, curve: int, partner: int, at: float, row: int = -1) -> bool:

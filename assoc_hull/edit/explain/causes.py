@@ -12,8 +12,9 @@ from collections.abc import Collection, Iterator, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import shown
+from assoc_hull.arguments import integer, shown
 from assoc_hull.display import ShownAsText
+from assoc_hull.edit.asked_words import field_words, joined_words
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.modifications.definitions import definition_meant
 from assoc_hull.edit.report import change_text
@@ -21,6 +22,7 @@ from assoc_hull.edit.step import Step
 from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
 from assoc_hull.graph.trace_causes import CauseTracer, CauseTree
 from assoc_hull.model.address import AddressBook
+from assoc_hull.model.dirty_cause import cause_of
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.generated_curves import attached_rows
 from assoc_hull.model.kinds import Role, Sort, State
@@ -32,6 +34,8 @@ __all__ = [
     "Thing",
     "Why",
     "node_of",
+    "spelled",
+    "step_numbered",
     "why",
     "why_after",
 ]
@@ -41,6 +45,9 @@ __all__ = [
 
 _STOPS = 4
 """So many of the places where a change stopped are named in the text."""
+
+_SLIGHT = 0.01
+"""Causes below this part of the largest are left out where an edit set points nobody named."""
 
 # what goes on beside a branch, below the last one, at a branch, at the last one
 _INDENT = ("  ", "  ", "  ", "  ")
@@ -59,7 +66,7 @@ class Why(ShownAsText):
     edit : str or None
         Name of the edit; None if none has reached the object.
     step : int
-        Number of the edit in the history, from 1; 0 if none.
+        Number of the edit, which it keeps in the history, the graph and in files; 0 if none.
     moved : float or None, m
         By how much the object changed; None where the edit itself set it, or nothing is
         known.
@@ -69,6 +76,12 @@ class Why(ShownAsText):
         The objects whose change made this one be evaluated, the one that moved most first.
     stopped : tuple of str
         Where it stopped: objects made from this one that came out as they were.
+    because : str
+        What the edit was asked for, in words, where it set points that nobody named.
+    left : int
+        Causes that are left out, as they moved less than the least that was asked.
+    dirty : str
+        Because of what the object is dirty in the edit that is open; empty where it is clean.
     """
 
     object: str
@@ -79,6 +92,9 @@ class Why(ShownAsText):
     what: str
     causes: tuple[Why, ...] = ()
     stopped: tuple[str, ...] = ()
+    because: str = ""
+    left: int = 0
+    dirty: str = ""
 
     def chain(self) -> list[str]:
         """Give the keys from the object back to the edit, by the causes that moved most."""
@@ -113,7 +129,10 @@ class Why(ShownAsText):
         return self._text(_PLAIN if plain else _BRANCH)
 
     def _text(self, marks: tuple[str, str, str, str]) -> str:
-        head = [] if self.edit is None else [f"edit {self.step}, {self.edit!r}:"]
+        head = [f"{self.name} is dirty {self.dirty}"] if self.dirty else []
+        if self.edit is not None:
+            because = f", because of {self.because}" if self.because else ""
+            head.append(f"edit {self.step}, {self.edit!r}{because}:")
         return "\n".join([*head, *self._lines(marks, "", "", set())])
 
     def _lines(
@@ -131,12 +150,14 @@ class Why(ShownAsText):
         seen.add(self.object)
         beside, after, branch, last = marks
         if self.stopped:
-            mark = branch if self.causes else last
+            mark = branch if self.causes or self.left else last
             yield f"{below}{mark}stopped at {self._stops()}: same bits as before"
         for cause in self.causes:
-            final = cause is self.causes[-1]
+            final = cause is self.causes[-1] and not self.left
             mark, rest = (last, after) if final else (branch, beside)
             yield from cause._lines(marks, below + mark, below + rest, seen)
+        if self.left:
+            yield f"{below}{last}and {self.left} that moved less"
 
     def _stops(self) -> str:
         more = f" and {len(self.stopped) - _STOPS} more" if len(self.stopped) > _STOPS else ""
@@ -153,14 +174,15 @@ _SET = "set by the edit"
 _CARRIED = "carried by the mapping of the edit, or found where a carried line meets a plane"
 _RECIPE = "its points, kinds or end conditions were changed by the edit"
 _FOLLOWED = "followed"
-_CUT_OFF = "evaluated again, and came out with the same bits: nothing was told to its readers"
+_CUT_OFF = "dirty, and came out with the same bits: what is made from it stayed clean"
+_NOT_REACHED = "not reached by this edit"
 _BLOCKED = "not evaluated: something it is made from has failed"
 _FAILED = "could not be made: it keeps its last good shape"
 _GONE = "an object that is not there"
 
 
-def why(document: Document, node: int) -> Why:
-    """Explain the last change of a node.
+def why(document: Document, node: int, step: int | None = None, least: float | None = None) -> Why:
+    """Explain a change of a node.
 
     Parameters
     ----------
@@ -168,13 +190,22 @@ def why(document: Document, node: int) -> Why:
         The hull with its history.
     node : int
         Twice the row of a point, or twice the number of a curve and one.
+    step : int or None
+        Number of an edit of the history; -1 is the last one. None: the last that reached it.
+    least : float or None, m
+        Causes that moved less are left out, but for the first. None: where the edit set points that
+        nobody named, as a pull does, those below a hundredth of the first.
 
     Returns
     -------
     Why
-        The last committed edit that changed or evaluated the node, and the causes back to
-        what the designer set. A watched crossing has no value of its own: its causes are
-        its curves.
+        The edit that changed or evaluated the node, and the causes back to what the designer set.
+        A watched crossing has no value of its own: its causes are its curves.
+
+    Raises
+    ------
+    BadInputError
+        The history has no such edit.
 
     Examples
     --------
@@ -184,21 +215,68 @@ def why(document: Document, node: int) -> Why:
     >>> print(why(Document(wigley()), 0))
     ST 1 x profile: as it was made: no edit has reached it
     """
-    return why_after(document.state.published(), list(document.history), node)
+    steps = list(document.history) if step is None else [step_numbered(document, step, "in why")]
+    state = document.state.published()
+    found = why_after(state, steps, node, least)
+    if step is not None and found.edit is None:
+        found = attrs.evolve(
+            found, edit=steps[0].name, step=steps[0].number, what=_NOT_REACHED, causes=()
+        )
+    cause = cause_of(document.state.seen_here(), document.state.dirty_here(), node)
+    return found if cause is None else attrs.evolve(found, dirty=str(cause))
 
 
-def why_after(state: HullState, steps: Sequence[Step], node: int) -> Why:
+def step_numbered(document: Document, number: int, where: str) -> Step:
+    """Give the step of the history that has a number; -1 is the last one, -2 that before it.
+
+    Raises
+    ------
+    BadInputError
+        The history has none.
+    """
+    integer(number, "edit", where, least=-(10**6))
+    steps = document.history
+    found = [each for each in steps if each.number == number]
+    if not found and -len(steps) <= number < 0:
+        found = [steps[number]]
+    if found:
+        return found[0]
+    numbers = [each.number for each in steps]
+    whole = numbers == list(range(1, len(steps) + 1))
+    known = f"a number from 1 to {len(steps)}" if whole else f"one of {spelled(numbers)}"
+    remedy = f"give {known}" if steps else "make an edit first"
+    raise BadInputError(f"edit {number} was asked", f"in a history of {len(steps)}", remedy)
+
+
+def spelled(numbers: Sequence[int]) -> str:
+    """Give whole numbers in words, runs of them as one: ``1, 3 to 5``."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and runs[-1][-1] == number - 1:
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    return ", ".join(f"{run[0]} to {run[-1]}" if len(run) > 2 else
+                     ", ".join(map(str, run)) for run in runs)  # fmt: skip
+
+
+def why_after(
+    state: HullState, steps: Sequence[Step], node: int, least: float | None = None, coming: int = 0
+) -> Why:
     """Explain the last change of a node by steps that led to the state, oldest first.
 
-    For a look at an edit that is not in the history; otherwise as `why`.
+    For a look at an edit that is not in the history, whose number will be `coming`; otherwise as
+    `why`.
     """
     book = AddressBook(state)
     if _is_watched(state, node):
-        return _watched(state, steps, book, node)
-    for number in range(len(steps), 0, -1):
-        traces = _NamedTraces(state, book, steps[number - 1], number)
+        return _watched(state, steps, book, node, least, coming)
+    for step in reversed(steps):
+        traces = _NamedTraces(state, book, step, step.number or coming, least)
         if traces.tracer.knows(node):
-            return traces.name(traces.tracer.trace(node))
+            return attrs.evolve(
+                traces.name(traces.tracer.trace(node)), because=joined_words(traces.fields)
+            )
     return Why(_key(state, node), _name(book, node), None, 0, None, _still(state, node))
 
 
@@ -255,14 +333,17 @@ def _is_watched(state: HullState, node: int) -> bool:
     return bool(crossing and state.rows.role[row] == Role.WATCHED)
 
 
-def _watched(state: HullState, steps: Sequence[Step], book: AddressBook, node: int) -> Why:
+def _watched(
+    state: HullState, steps: Sequence[Step], book: AddressBook, node: int, least: float | None,
+    coming: int,
+) -> Why:  # fmt: skip
     curves = state.rows.curve[Node.number(node)].tolist()
-    causes = [why_after(state, steps, Node.curve(curve)) for curve in curves]
+    causes = [why_after(state, steps, Node.curve(curve), least, coming) for curve in curves]
     causes.sort(key=lambda each: -each.step)
     last = causes[0]
     return Why(
         _key(state, node), _name(book, node), last.edit, last.step, None,
-        "watched, it lies where its curves pass", tuple(causes),
+        "watched, it lies where its curves pass", tuple(causes), because=last.because,
     )  # fmt: skip
 
 
@@ -317,8 +398,12 @@ def _without_alike(causes: Sequence[CauseTree], made: Collection[int]) -> list[C
 class _NamedTraces:
     """Puts the traces of one step into names."""
 
-    def __init__(self, state: HullState, book: AddressBook, step: Step, number: int) -> None:
+    def __init__(
+        self, state: HullState, book: AddressBook, step: Step, number: int, least: float | None
+    ) -> None:
         self.state, self.book, self.step, self.number = state, book, step, number
+        self._least = least
+        self.fields = field_words(step.script.edits, leads=bool(step.report.led))
         self.tracer = CauseTracer(step.cause, step.changed, step.moved, step.seeds)
         self._done: dict[int, Why] = {}
         self._made = frozenset((2 * attached_rows(state)).tolist())
@@ -327,13 +412,22 @@ class _NamedTraces:
         """Put a trace into names; each node once, as many readers share it."""
         node = trace.node
         if node not in self._done:
+            every = _without_alike(trace.causes, self._made)
+            kept = self._felt(every)
             self._done[node] = Why(
                 _key(self.state, node), _name(self.book, node), self.step.name, self.number,
                 None if np.isnan(trace.moved) else trace.moved, self._what(trace),
-                tuple(self.name(each) for each in _without_alike(trace.causes, self._made)),
-                self._stopped(node),
+                tuple(map(self.name, kept)), self._stopped(node), left=len(every) - len(kept),
             )  # fmt: skip
         return self._done[node]
+
+    def _felt(self, causes: Sequence[CauseTree]) -> list[CauseTree]:
+        """Leave out causes that moved less than the least that was asked, but for the first."""
+        least = self._least
+        if least is None:
+            least = _SLIGHT * causes[0].moved if self.fields and causes else 0.0
+        # What the edit set by itself has no amount, and is kept.
+        return [each for i, each in enumerate(causes) if i == 0 or not each.moved < least]
 
     def _stopped(self, node: int) -> tuple[str, ...]:
         """Name where a change stopped; for a definition, the curves of which it moved no point."""

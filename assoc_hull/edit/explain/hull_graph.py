@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal
 
-from assoc_hull.arguments import choice, integer, shown
+from assoc_hull.arguments import choice, shown
+from assoc_hull.edit.dirty_objects import Dirty
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.explain.causes import Thing
+from assoc_hull.edit.explain.causes import Thing, step_numbered
 from assoc_hull.edit.modifications.definitions import definition_meant
-from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
+from assoc_hull.errors import ForeignPointError, WrongTypeError
 from assoc_hull.graph import graph_filter as filters
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.object_graph import object_graph, point_id
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ONLY", "OnlyName", "changed_by", "graph_of"]
 
-OnlyName = Literal["two-way", "one-way", "latent", "changed"]
-ONLY: tuple[OnlyName, ...] = ("two-way", "one-way", "latent", "changed")
+OnlyName = Literal["two-way", "one-way", "latent", "changed", "dirty"]
+ONLY: tuple[OnlyName, ...] = ("two-way", "one-way", "latent", "changed", "dirty")
 
 
 def graph_of(
@@ -42,18 +43,19 @@ def graph_of(
         Only what lies within some hops of this object; of a line, of its curves too.
     hops : (int, int)
         Most hops against and along the links, counted in the whole graph.
-    only : {"two-way", "one-way", "latent", "changed"} or None
+    only : {"two-way", "one-way", "latent", "changed", "dirty"} or None
         Links of this kind and what they join: curves (and groups) each of which generates,
         or may generate, on the other; those of which only one does; curves that may come to
-        meet and do not; or what an edit changed.
+        meet and do not; what an edit changed; or what the edit that is open here has reached.
     edit : int or None
-        Only what this edit changed: 1 is the first, -1 the last. None with "changed" means
+        Only what the edit of this number changed; -1 is the last. None with "changed" means
         the last.
 
     Returns
     -------
     networkx.MultiDiGraph
-        What passes every filter that was given.
+        What passes every filter that was given. Inside an edit, what it has reached has a
+        ``dirty`` that says because of what.
 
     Raises
     ------
@@ -73,7 +75,11 @@ def graph_of(
     number = -1 if only == "changed" and edit is None else edit
     changed = None if number is None else changed_by(document, number)
     found = object_graph(document.state.published())
-    kept = set(found)
+    dirty = _dirty(document)
+    for node, cause in dirty.items():
+        if node in found:
+            found.nodes[node]["dirty"] = cause
+    kept = set(found) if only != "dirty" else set(found) & dirty.keys()
     if around is not None:
         kept &= filters.nodes_within(
             found, _nodes(document.state.published(), around, found), *hops
@@ -83,6 +89,23 @@ def graph_of(
     if only in ("two-way", "one-way", "latent"):
         found = _linked(found, only)
     return filters.subgraph(found, kept) if len(kept) < len(found) else found
+
+
+def _dirty(document: Document) -> dict[str, str]:
+    """Give because of what nodes of the graph are dirty in the edit that is open here."""
+    reached = document.state.dirty_here()
+    if not reached.by:
+        return {}
+    was, found = document.state.published(), dict[str, str]()
+    causes = Dirty(document.state, reached)
+    for curve in causes.curves:
+        found[curve.id] = str(curve.dirty)
+    for point in causes.points:
+        if point.number < was.rows.count and was.rows.alive[point.number]:
+            found |= dict.fromkeys(_names(was, point.number), str(point.dirty))
+    for each in causes.definitions:
+        found[each.key] = str(causes[each.name])
+    return found
 
 
 def _linked(found: networkx.MultiDiGraph[str], kind: OnlyName) -> networkx.MultiDiGraph[str]:
@@ -133,7 +156,7 @@ def changed_by(document: Document, number: int) -> frozenset[str]:
     document : Document
         The hull with its history.
     number : int
-        Number of the edit, from 1; -1 is the last one.
+        Number of the edit, as the history and `why` tell it; -1 is the last one.
 
     Returns
     -------
@@ -155,14 +178,7 @@ def changed_by(document: Document, number: int) -> frozenset[str]:
     ...
     assoc_hull.errors.BadInputError: edit 1 was asked, in a history of 0; make an edit first
     """
-    count = len(document.history)
-    integer(number, "edit", "in graph", least=-(10**6))
-    if not (1 <= number <= count or -count <= number <= -1):
-        raise BadInputError(
-            f"edit {number} was asked", f"in a history of {count}",
-            f"give a number from 1 to {count}" if count else "make an edit first",
-        )  # fmt: skip
-    step = document.history[number - 1 if number > 0 else number]
+    step = step_numbered(document, number, "in graph")
     state = document.state.published()
     curves = {str(state.curves.key[curve]) for curve in step.curves.tolist()}
     curves |= {str(state.formed.definition[form].key) for form in step.forms.tolist()}

@@ -312,11 +312,11 @@ def preview(
     def look(step: Step | None) -> None:
         seen = _Seen(before, document.state.as_written(), step, measure)
         steps = [*document.history, *([] if step is None else [step])]
-        causes = dict[str, Why]()
+        causes, coming = dict[str, Why](), len(document.steps) + 1
         for thing in asked:
             node = node_of(document.state, thing)
             known = thing if isinstance(thing, str) else thing.id
-            causes[known] = why_after(document.state, steps, node)
+            causes[known] = why_after(document.state, steps, node, coming=coming)
         drawn = _changed_shapes(seen.after, step) if shapes else None
         found.append(Preview((), causes, drawn, None, seen, lambda: trial.report))
 

@@ -23,7 +23,7 @@ from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.model.gaps import gap_at
 from assoc_hull.model.generated_curves import kept_rows
 from assoc_hull.model.kinds import Role, Sort, State
-from assoc_hull.model.links import generates
+from assoc_hull.model.links import crossing_ways
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.roles import Candidates, choose
 from assoc_hull.model.tables import HullState
@@ -107,10 +107,7 @@ def _follows(state: HullState, curve: int) -> bool:
     mine = _crossings(state, curve)
     if not len(mine):
         return False
-    line = state.line_of(curve)
-    givers = {state.line_of(each) for each in set(state.rows.curve[mine, 0].tolist())}
-    groups = {int(state.lines.group[giver]): giver for giver in givers}
-    return all(generates(state, giver, line) == (True, False) for giver in groups.values())
+    return bool((crossing_ways(state, mine) == (True, False)).all())
 
 
 def _crossings(state: HullState, curve: int) -> IntArray:

@@ -9,7 +9,7 @@ they have come to need.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -72,6 +72,19 @@ class DefinitionValues(Modification):
     def idle(self) -> bool:
         """Whether nothing is asked of definitions."""
         return not (self.forms or self.attach)
+
+    @property
+    def asked_for(self) -> int:
+        """How many definitions have other values, and how many lines return to theirs."""
+        return len(self.forms) + len(self.attach)
+
+    def reached(self, state: HullState) -> Sequence[IntArray]:
+        """Give the definitions, and the curves of the lines."""
+        live = state.live("formed").tolist()
+        number = {state.formed.definition[each].use: each for each in live}
+        found = [Node.form(np.array([number[use]], np.int64)) for use in self.forms]
+        lines = [np.array(state.curves_of(line), np.int64) for line in sorted(self.attach)]
+        return [*found, *map(Node.curve, lines)]
 
     def plan(self, work: Work) -> None:
         """Carry out what is asked, but for the evaluation."""

@@ -442,7 +442,7 @@ def _roles(state: HullState, line: int, marks: Marks, keep: float) -> list[Role]
             continue
         old = state.line_of(curve)
         lower = state.family(old).rank < rank
-        old_gives, new_gives = generates(state, old, line)
+        old_gives, new_gives = generates(state, old, line, marks.xyz[i])
         if may[i] and old_gives and new_gives:
             roles.append(Role.SHARED)
         elif old_gives and (lower or not new_gives):

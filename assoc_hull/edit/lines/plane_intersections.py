@@ -51,8 +51,8 @@ def enter_line_plane(edit: Transaction, line: int, stay: IntArray = _NO_POINTS) 
     edit.pending.fresh += mine.tolist()
 
 
-def intersect_groups(edit: Transaction, a: str, b: str) -> None:
-    """Let the lines of two groups that were strangers meet; all crossings are watched."""
+def intersect_groups(edit: Transaction, a: str, b: str) -> IntArray:
+    """Let the lines of two groups that were strangers meet; all crossings (k,) are watched."""
     state = edit.state
     edit.document.refresh()
     names = state.groups.name.data
@@ -71,7 +71,9 @@ def intersect_groups(edit: Transaction, a: str, b: str) -> None:
         for spot in np.flatnonzero(meets.row < 0).tolist():
             row = make_crossing(edit.maker, curve, spot, set(), watch=True)
             born += [] if row is None else [row]
-    set_limits(state, edit.journal, np.array(born, np.int64))
+    rows: IntArray = np.array(born, np.int64)
+    set_limits(state, edit.journal, rows)
+    return rows
 
 
 def _hold_shape(edit: Transaction, network: HullNetwork, mine: IntArray, stay: IntArray) -> None:

@@ -17,6 +17,7 @@ from assoc_hull.geometry.curves import CurveData, IntArray
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.kinds import Sort
+from assoc_hull.model.links import holders
 from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.tables import HullState
@@ -46,6 +47,13 @@ def remove_line(edit: Transaction, line: int) -> None:
     remove_line_plane(edit, line)
     edit.journal.put(state.curves.alive, mine, False)
     edit.journal.put(state.lines.alive, [line], False)
+    key = state.lines.key[line]
+    for group in holders(state, key).tolist():
+        left = tuple(each for each in state.groups.members[group] if each != key)
+        edit.journal.set(state.groups.members, [group], [left])
+    kept = tuple(each for each in state.rulings if key not in (each.a, each.b))
+    if kept != state.rulings:
+        edit.journal.set(state.settings.rulings, [0], [kept])
     edit.pending.curves -= set(mine.tolist())
 
 

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from assoc_hull.arguments import flag, word
 from assoc_hull.edit.lines.plane_intersections import intersect_groups, remove_planes
-from assoc_hull.edit.lines.remove_line import replace_crossings
-from assoc_hull.edit.modifications.roles import change_role
+from assoc_hull.edit.modifications.switch_crossings import (
+    leave_stand_ins,
+    switch_crossings,
+    take_up_stand_ins,
+)
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.tables import Association, HullState
+from assoc_hull.model.kinds import FAMILIES, Sort
+from assoc_hull.model.links import crossing_ways, named_lines
+from assoc_hull.model.tables import Association, HullState, Ruling
 
-__all__ = ["associate", "dissociate"]
+__all__ = ["associate", "dissociate", "rule"]
 
 
 def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> None:
@@ -37,14 +43,75 @@ def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> Non
     _check_pair(edit, word(a, "group"), word(b, "group"))
     flag(two_way, "two_way", "in associate")
     known = any({link.a, link.b} == {a, b} for link in state.associations)
-    edit.maker.associate(Association(a, b, two_way))
+    before = crossing_ways(state, _crossings(state, a, b)) if known else None
+    edit.maker.associate(_declared(state, a, b, two_way=two_way))
+    _drop_rulings(edit, a, b)
     edit.pending.structural = True
     if not known:
-        intersect_groups(edit, a, b)
-    if two_way:
-        return
-    for row in _crossings(state, a, b).tolist():
-        _turn(edit, row, a)
+        take_up_stand_ins(edit, intersect_groups(edit, a, b))
+    rows = _crossings(state, a, b)
+    ways = crossing_ways(state, rows)
+    changed = ~ways.all(axis=1) if before is None else (ways != before).any(axis=1)
+    switch_crossings(edit, rows[changed], ways[changed])
+
+
+def rule(edit: Transaction, a: str, b: str, where: Sequence[Ruling]) -> None:
+    """Say which of two groups or lines rules where; the hull keeps every bit of its shape.
+
+    `where` takes the place of what was said of the two before; what none of it holds follows the
+    association of the groups.
+
+    Raises
+    ------
+    BadInputError
+        A thing with itself, or no two that are associated and meet.
+    RingError
+        When the edit ends, if driven links would run in a ring.
+    """
+    state = edit.state
+    lines = [named_lines(state, name) for name in (a, b)]
+    both = np.intersect1d(lines[0], lines[1])
+    if a != b and len(both):
+        what = f"{state.lines.name[int(both[0])]} is of both, {a!r} and {b!r}"
+        raise BadInputError(what, "in rule", "name two that share no line")
+    rows = _crossings_of(state, *lines)
+    rows = rows[~state.rows.contact[rows]]
+    if a == b or not len(rows):
+        what = f"{a!r} with itself" if a == b else f"{a!r} and {b!r} have no crossing"
+        raise BadInputError(what, "in rule", "name two groups or lines that are associated")
+    before = crossing_ways(state, rows)
+    kept = [each for each in state.rulings if {each.a, each.b} != {a, b}]
+    edit.journal.set(state.settings.rulings, [0], [(*where, *kept)])
+    edit.pending.structural = True
+    ways = crossing_ways(state, rows)
+    changed = (ways != before).any(axis=1)
+    switch_crossings(edit, rows[changed], ways[changed])
+
+
+def _drop_rulings(edit: Transaction, a: str, b: str) -> None:
+    """Let what is said of two groups now hold for all of their lines."""
+    state = edit.state
+    lines = [set(named_lines(state, name).tolist()) for name in (a, b)]
+
+    def within(each: Ruling) -> bool:
+        mine = [set(named_lines(state, name).tolist()) for name in (each.a, each.b)]
+        return (mine[0] <= lines[0] and mine[1] <= lines[1]) or (
+            mine[0] <= lines[1] and mine[1] <= lines[0]
+        )
+
+    kept = tuple(each for each in state.rulings if not within(each))
+    if kept != state.rulings:
+        edit.journal.set(state.settings.rulings, [0], [kept])
+
+
+def _declared(state: HullState, a: str, b: str, *, two_way: bool) -> Association:
+    """Give the association; one that runs both ways is told from the lower rank to the higher."""
+    names = state.groups.name.data
+    if two_way and {a, b} <= set(names):
+        a, b = sorted(
+            (a, b), key=lambda name: FAMILIES[state.groups.family[names.index(name)]].rank
+        )
+    return Association(a, b, two_way)
 
 
 def _check_pair(edit: Transaction, a: str, b: str) -> None:
@@ -61,35 +128,18 @@ def _check_pair(edit: Transaction, a: str, b: str) -> None:
             )
 
 
-def _turn(edit: Transaction, row: int, giver: str) -> None:
-    """Let a crossing define the curve of the other group only."""
-    state = edit.state
-    names = [_group(state, curve) for curve in state.rows.curve[row].tolist()]
-    taker = 1 - names.index(giver)
-    role = Role(int(state.rows.role[row]))
-    defines = {
-        Role.SHARED: (True, True),
-        Role.DRIVES_A: (True, False),
-        Role.DRIVES_B: (False, True),
-    }
-    if not defines.get(role, (False, False))[taker]:
-        change_role(edit, row, Role.WATCHED)
-        return
-    change_role(edit, row, Role.DRIVES_B if taker else Role.DRIVES_A)
-
-
-def _group(state: HullState, curve: int) -> str:
-    return str(state.groups.name[int(state.lines.group[state.line_of(curve)])])
-
-
 def _crossings(state: HullState, a: str, b: str) -> IntArray:
+    """Give the crossings of two groups, (k,)."""
+    return _crossings_of(state, named_lines(state, a), named_lines(state, b))
+
+
+def _crossings_of(state: HullState, a: IntArray, b: IntArray) -> IntArray:
+    """Give the crossings of lines with others, (k,)."""
     table = state.rows
     rows = np.flatnonzero(table.alive.data & (table.sort.data == Sort.CROSSING))
-    keep = [
-        {_group(state, curve) for curve in table.curve[row].tolist()} == {a, b}
-        for row in rows.tolist()
-    ]
-    found: IntArray = rows[np.array(keep, bool)]
+    one, other = state.curves.line[table.curve[rows]].reshape(-1, 2).T
+    ahead = np.isin(one, a) & np.isin(other, b)
+    found: IntArray = rows[ahead | (np.isin(one, b) & np.isin(other, a))]
     return found
 
 
@@ -110,9 +160,9 @@ def dissociate(edit: Transaction, a: str, b: str) -> None:
         )
     edit.pending.structural = True
     rows = _crossings(state, a, b)
-    replace_crossings(edit, rows, np.zeros(0, np.int64))
-    edit.maker.remove_rows(rows)
+    leave_stand_ins(edit, rows)
     edit.journal.set(state.settings.associations, [0], [left])
+    _drop_rulings(edit, a, b)
     for group, other in ((a, b), (b, a)):
         _remove_planes(edit, group, other)
 

@@ -23,7 +23,7 @@ from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.form_values import chain_of
 from assoc_hull.model.generated_curves import kept_rows
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.links import generates
+from assoc_hull.model.links import crossing_ways
 from assoc_hull.model.objects import handle
 from assoc_hull.model.tables import HullState
 
@@ -160,7 +160,7 @@ def drive_others(edit: Transaction, curve: int) -> None:
     mine &= (table.curve[:, 0] == curve) & (table.override.data < 0)
     for row in np.flatnonzero(mine).tolist():
         other = int(table.curve[row, 1])
-        one_way = generates(state, state.line_of(curve), state.line_of(other)) == (True, False)
+        one_way = crossing_ways(state, np.array([row]))[0].tolist() == [True, False]
         if one_way and table.role[row] != Role.DRIVES_B:
             room = _make_room(edit, other, row)
             change_role(edit, row, Role.DRIVES_B if room else Role.WATCHED)

@@ -44,6 +44,7 @@ from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
 __all__ = ["FairAnswer", "PullAsked", "ShapeAsked"]
@@ -351,6 +352,28 @@ class FairAnswer:
             found = edit.pending.answer = cls(edit)
         return found
 
+    @property
+    def idle(self) -> bool:
+        """Whether all that is asked of points is so already."""
+        xyz = self.edit.state.rows.xyz
+        return not self.asked and all((xyz[each.rows] == each.to).all() for each in self.leads)
+
+    def reached(self) -> Iterator[tuple[str, IntArray]]:
+        """Give what is asked in words, with the points that the widest answer to it may move."""
+        state = self.edit.state
+        free = fairable_rows(state)
+        last, xyz = max(len(_RADII), len(_FACTORS)) - 1, state.rows.xyz[free]
+        for each in self.asked:
+            title = "pull at" if isinstance(each, PullAsked) else "re-shaping of"
+            inside = each.fade(state, xyz, last) != 0.0
+            yield f"the {title} {each.name}", Node.point(np.concatenate([each.rows, free[inside]]))
+        for lead in self.leads:
+            widest = _widest(state, lead, free)
+            inside = np.ones(len(free), np.bool_)
+            if widest is not None:
+                inside = widest.fade(state, xyz, last) != 0.0
+            yield f"the lead of {lead.name}", Node.point(np.concatenate([lead.rows, free[inside]]))
+
     def carry_out(self) -> None:
         """Search for the answer, and leave it as the last stage of the edit.
 
@@ -363,8 +386,9 @@ class FairAnswer:
         RefusedEditError
             As the update refused the last answer that was tried.
         """
-        before, state = _shapes(self.edit.state), self.edit.state
         self.edit.end_stage()
+        # What was asked plainly in the same edit is there already: it is no gain of the answer's.
+        before, state = _shapes(self.edit.state), self.edit.state
         net, stretches = NetBefore.of(state), self._lead()
         every = np.concatenate([each.rows for each in self.asked])
         if not state.rows.alive[every].all():
@@ -376,6 +400,8 @@ class FairAnswer:
         for _ in range(_AGAIN):
             search = _Search.of(self.edit, self.asked, before)
             if not search.moves:
+                names = ", ".join(dict.fromkeys(each.name for each in self.asked))
+                self.edit.notes.append(f"{names}: the hull is there already, no point moves")
                 return
             best = search.find(best)
             search.carry_out(best)
@@ -407,14 +433,8 @@ class FairAnswer:
         free = fairable_rows(state)
         self.leads.sort(key=lambda each: (each.rows.tolist(), str(each.span)))
         stretches = [find_stretch(state, each, rows, free) for each in self.leads]
-        for each, found in zip(self.leads, stretches, strict=True):
-            spacing = None if found.along == "x" else station_spacing(state)
-            self.asked.append(
-                ShapeAsked(
-                    each.name, each.rows, each.to, each.curve, found.bounds, spacing,
-                    found.along == "girth", found.rim,
-                )
-            )  # fmt: skip
+        pairs = zip(self.leads, stretches, strict=True)
+        self.asked += [_led_shape(state, each, found) for each, found in pairs]
         return stretches
 
     def _tell(self, net: NetBefore, stretches: list[Stretch]) -> None:
@@ -494,7 +514,8 @@ class _Search:
                 elif isinstance(mine, ShapeAsked):
                     x, y, z = state.rows.xyz[first].tolist()
                     name = f"the place of {name} at ({x:.3f}, {y:.3f}, {z:.3f}) m"
-                raise PointRoleError(name, kind, None, "ask for another point")
+                ways = "ask for another point, or pin this one (lead=False in insert and move)"
+                raise PointRoleError(name, kind, None, ways)
         places = _places(state, asked, rows, problem.moves[index])
         step = places - state.rows.xyz[rows]
         sub_step_count(state, PointDisplacements(rows, step, rows[:0]))  # refuses what is too far
@@ -659,6 +680,7 @@ class _Search:
             f"answered fairly within {reach}: {int(far.sum())} points move by more than 1 mm, "
             f"{self.trials} tried"
         )
+        yield from self._springs(best.answer.delta)
         state = self.edit.state
         for curve, (was, now, _) in best.gained.items():
             line = state.lines.name[state.line_of(curve)]
@@ -666,6 +688,27 @@ class _Search:
                 f"{line} has {now} changes of the sign of curvature, {was} before: where it is "
                 f"straight, {1e3 * deepest:.0f} mm want a radius of {_STRAIGHT * deepest:.0f} m"
             )
+
+    def _springs(self, delta: FloatArray) -> Iterator[str]:
+        """Say how far a batten springs at most where points moved, before and now."""
+        problem, state = self.problem, self.edit.state
+        more = problem.matrix @ delta
+        felt = np.flatnonzero(np.abs(more) > _FELT)
+        if not len(felt):
+            return
+        was, now = np.abs(problem.residual[felt]), np.abs(problem.residual[felt] + more[felt])
+        worst = int((now - was).argmax())
+        line = state.lines.name[state.line_of(int(problem.curve[felt][worst]))]
+        x, y, z = state.rows.xyz[int(problem.centre[felt][worst])].tolist()
+        told = (
+            f"a batten springs there by {1e3 * was.max():.1f} mm at most before, by "
+            f"{1e3 * now.max():.1f} mm now; it rose most on {line} at ({x:.3f}, {y:.3f}, {z:.3f}) "
+            f"m, from {1e3 * was[worst]:.1f} to {1e3 * now[worst]:.1f} mm"
+        )
+        deepest = float(np.abs(self.least.amount).max())
+        if now[worst] > max(_SPRINGS * was[worst], _DEEP * deepest):
+            told += ": more than twice; spread it over more points, or ask for less"
+        yield told
 
 
 def _stands(state: HullState, row: int) -> tuple[object, ...]:
@@ -706,11 +749,45 @@ def _places(state: HullState, asked: list[Asked], rows: IntArray, moves: FloatAr
     return places
 
 
+def _led_shape(state: HullState, lead: LineLed, stretch: Stretch) -> ShapeAsked:
+    """Give what a line that leads is asked for over a stretch."""
+    spacing = None if stretch.along == "x" else station_spacing(state)
+    girth = stretch.along == "girth"
+    return ShapeAsked(
+        lead.name, lead.rows, lead.to, lead.curve, stretch.bounds, spacing, girth, stretch.rim
+    )
+
+
+def _widest(state: HullState, lead: LineLed, free: IntArray) -> ShapeAsked | None:
+    """Give a lead over a stretch that holds that which it will have; None of a new curve.
+
+    Points that the same edit has made are not on the curve yet: their neighbours stand for them.
+    """
+    was, curve = state.published(), lead.curve
+    if curve >= was.curves.count or not was.curves.alive[curve]:
+        return None
+    order, before = state.curves.rows.data[curve], was.curves.rows.data[curve]
+    old = np.flatnonzero(np.isin(order, before))
+    at = np.flatnonzero(np.isin(order, lead.rows))
+    beside = np.searchsorted(old, at)
+    low, high = (beside - ~np.isin(at, old)).clip(0), beside.clip(None, len(old) - 1)
+    rows = np.unique(order[old[np.concatenate([low, high])]])
+    mine = attrs.evolve(lead, rows=rows, to=state.rows.xyz[rows])
+    return _led_shape(state, lead, find_stretch(was, mine, rows, free))
+
+
 def _shapes(state: HullState) -> dict[int, SplineBatch]:
     """Give the curves as they are, by number."""
     live = state.live("curves").tolist()
     shapes = state.curves.spline.data
     return {curve: found for curve in live if (found := shapes[curve]) is not None}
+
+
+_FELT = 1e-6
+"""m: a residual that changes by less has not changed."""
+
+_SPRINGS, _DEEP = 2.0, 0.25
+"""A batten is told of that springs so many times as far, and by so much of what is asked."""
 
 
 @attrs.frozen(eq=False)

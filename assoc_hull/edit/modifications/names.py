@@ -13,7 +13,7 @@ from assoc_hull.errors import BadInputError, NameTakenError
 from assoc_hull.model.address import ResolvedAddress
 from assoc_hull.model.tables import HullState
 
-__all__ = ["rename", "rename_hull", "rename_lines"]
+__all__ = ["rename", "rename_hull", "rename_lines", "taken_names"]
 
 
 def rename(edit: Transaction, what: ResolvedAddress, name: object) -> None:
@@ -106,6 +106,12 @@ def _rename_point(edit: Transaction, row: int, name: str) -> None:
     if name in lines | _fixed(state) | _labels(state, row):
         raise NameTakenError("line or point", name)
     edit.journal.set(state.rows.label, [row], [name])
+
+
+def taken_names(state: HullState) -> set[str]:
+    """Give all names and keys of groups and lines, and the labels of points."""
+    lines = {state.lines.name[line] for line in state.live("lines").tolist()}
+    return (lines | _fixed(state) | set(state.rows.label.data.given.values())) - {""}
 
 
 def _fixed(state: HullState) -> set[str]:

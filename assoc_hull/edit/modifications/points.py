@@ -6,7 +6,7 @@ their values. It is right for millimetres: it is inherently a local bump.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Self
 
 import attrs
@@ -37,14 +37,17 @@ from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.tables import HullState
 from assoc_hull.tolerance import IN_PLANE
 
-__all__ = ["PointFreedom", "delete", "insert", "move", "move_by", "pin", "set_kind", "unpin"]
+__all__ = [
+    "PointFreedom", "delete", "insert", "move", "move_by", "note_pinned", "pin", "put_pinned",
+    "set_kind", "unpin",
+]  # fmt: skip
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 _BY_DEFINITION = "set the definitions its driver is made of (edit.set_form)"
 _WAYS_OUT = "move the driver, pull it (edit.pull), or make it shared (edit.set_role)"
 
 
-def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
+def move(edit: Transaction, row: int, to: Mapping[str, float], put: Put | None = None) -> None:
     """Move a point along its freedom.
 
     Parameters
@@ -55,6 +58,8 @@ def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
         A shared crossing, a placed or an adopted point. An adopted one becomes placed.
     to : mapping of str to float, m
         New coordinates: exactly those in which the point is free.
+    put : callable or None
+        What puts it there; None: it is pinned.
 
     Raises
     ------
@@ -66,10 +71,10 @@ def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
         A number that is not finite.
     """
     freedom = PointFreedom.of(edit.state, row)
-    _put(edit, [freedom], freedom.place(to)[None])
+    (put or put_pinned)(edit, [freedom], freedom.place(to)[None])
 
 
-def move_by(edit: Transaction, rows: Sequence[int], by: FloatArray) -> None:
+def move_by(edit: Transaction, rows: Sequence[int], by: FloatArray, put: Put | None = None) -> None:
     """Move points by vectors from where they were before the edit; all of them, or none.
 
     Parameters
@@ -80,6 +85,8 @@ def move_by(edit: Transaction, rows: Sequence[int], by: FloatArray) -> None:
         The points, each as `move` takes it.
     by : (1, 3) or (k, 3), m
         One vector for all, or one for each.
+    put : callable or None
+        As `move` takes it.
 
     Raises
     ------
@@ -97,10 +104,10 @@ def move_by(edit: Transaction, rows: Sequence[int], by: FloatArray) -> None:
     freedoms = [PointFreedom.of(edit.state, row) for row in rows]
     places = [freedom.moved(way) for freedom, way in zip(freedoms, each, strict=True)]
     if places:
-        _put(edit, freedoms, np.array(places))
+        (put or put_pinned)(edit, freedoms, np.array(places))
 
 
-def _put(edit: Transaction, freedoms: Sequence[PointFreedom], places: FloatArray) -> None:
+def put_pinned(edit: Transaction, freedoms: Sequence[PointFreedom], places: FloatArray) -> None:
     """Set points to places (k, 3), m, by hand; adopted ones are placed from then on."""
     state, rows = edit.state, np.array([each.row for each in freedoms])
     edit.write(rows, places, lambda: f"move of {', '.join(each.name for each in freedoms[:3])}")
@@ -108,6 +115,20 @@ def _put(edit: Transaction, freedoms: Sequence[PointFreedom], places: FloatArray
     edit.pending.moved_curves |= set(curves[curves >= 0].tolist())
     for row in rows[state.rows.sort[rows] == Sort.ADOPTED].tolist():
         pin(edit, row)
+
+
+def note_pinned(edit: Transaction, name: str) -> None:
+    """Say that a point is put between others that stay."""
+    note = (
+        f"{name} is put between points that stay: the line bends there and the hull does not "
+        "follow; with lead=True it does"
+    )
+    if note not in edit.pending.notes:
+        edit.pending.notes.append(note)
+
+
+Put = Callable[[Transaction, Sequence["PointFreedom"], FloatArray], None]
+"""Puts points to places (k, 3), m."""
 
 
 @attrs.frozen(eq=False)

@@ -15,7 +15,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import pair, places
+from assoc_hull.arguments import pair, places, shown
 from assoc_hull.edit.crossings.adopted_points import insert_defining_point, insertion_index
 from assoc_hull.edit.displacement_field import (
     FieldContext,
@@ -40,6 +40,7 @@ from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.links import generates
 from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.tables import HullState
@@ -112,7 +113,7 @@ class ReshapeField:
             return PointDisplacements(self.rows, own, np.zeros(0, np.int64))
         others = np.setdiff1d(ground.free(), self.rows, assume_unique=True)
         others = others[~(ground.state.rows.reader[others] == self.curve).any(axis=1)]
-        others = others[~_defines(ground.state, others, _givers(ground.state, self.curve))]
+        others = others[~_define_givers(ground.state, others, self.curve)]
         distance = ground.flat_distances(others)
         amount, at = self._amount(ground.state.rows.xyz[others])
         amount = part * amount
@@ -183,19 +184,23 @@ class ReshapeField:
         return np.where(inside, change, 0.0)
 
 
-def _givers(state: HullState, curve: int) -> IntArray:
-    """Give the groups that generate points on a curve's group and take none from it."""
-    names = state.groups.name.data
-    mine = names[int(state.lines.group[state.line_of(curve)])]
-    given = [link.a for link in state.associations if link.b == mine and not link.two_way]
-    return np.array([names.index(name) for name in given], np.int64)
-
-
-def _defines(state: HullState, rows: IntArray, groups: IntArray) -> np.typing.NDArray[np.bool_]:
-    """Tell which points define a curve of one of the groups."""
-    reader = state.rows.reader[rows]
-    group = state.lines.group[state.curves.line[reader]]
-    return np.asarray((np.isin(group, groups) & (reader >= 0)).any(axis=1))
+def _define_givers(state: HullState, rows: IntArray, curve: int) -> np.typing.NDArray[np.bool_]:
+    """Tell which points define a line that generates on a curve there and takes nothing from it."""
+    line, places = state.line_of(curve), state.rows.xyz[rows]
+    found, known = np.zeros(len(rows), np.bool_), dict[int, bool]()
+    for side in (0, 1):
+        reader = state.rows.reader[rows, side]
+        for other in np.unique(state.curves.line[reader[reader >= 0]]).tolist():
+            mine = np.flatnonzero((reader >= 0) & (state.curves.line[reader] == other))
+            if not state.rulings:
+                group = int(state.lines.group[other])
+                if group not in known:
+                    known[group] = generates(state, other, line) == (True, False)
+                found[mine] |= known[group]
+                continue
+            for i in mine.tolist():
+                found[i] |= generates(state, other, line, places[i]) == (True, False)
+    return found
 
 
 # --------------------------------------------------------------------------------------
@@ -393,7 +398,7 @@ def _checked(
     off = (shape[:, axis] <= span[0]) | (shape[:, axis] >= span[1])
     if off.any():
         raise BadInputError(
-            f"the point {shape[off][0].tolist()} lies outside the span {span}",
+            f"the point {shape[off][0].tolist()} lies outside the span {shown(span)}",
             f"in reshape of {name}",
             "widen the span or leave the point out",
         )

@@ -21,7 +21,7 @@ from assoc_hull.edit.document import Document, Label
 from assoc_hull.edit.step import Step
 from assoc_hull.geometry.curves import IntArray, PointKind
 from assoc_hull.model.form_definition import GENERATED
-from assoc_hull.model.kinds import FAMILIES, BoundaryKind, Role, Sort, State
+from assoc_hull.model.kinds import FAMILIES, OWN, BoundaryKind, Role, Sort, State
 from assoc_hull.model.tables import HullState
 
 __all__ = ["require_sound_tables", "require_whole_history"]
@@ -57,10 +57,13 @@ def _faults(state: HullState) -> Iterator[str]:
         found = _live(state, table, column)
         if not np.isin(found, list(codes)).all():
             yield f"a {column} of the {table} means nothing"
-    if not np.isin(_live(state, "rows", "override"), [-1, *Role]).all():
-        yield "an override means nothing"
+    for column, said in (("override", "an override"), ("first_role", "a first role")):
+        if not np.isin(_live(state, "rows", column), [-1, *Role]).all():
+            yield f"{said} means nothing"
     alone = _live(state, "rows", "sort") != Sort.CROSSING
-    for column, nothing in (("override", -1), ("contact", 0), ("sign", 0)):
+    for column, nothing in (
+        ("override", -1), ("first_role", -1), ("contact", 0), ("sign", 0),
+    ):  # fmt: skip
         if (_live(state, "rows", column)[alone] != nothing).any():
             yield f"a point that is no crossing has the {column} of one"
     if not np.isin(_live(state, "lines", "boundary"), [-1, *BoundaryKind]).all():
@@ -114,12 +117,13 @@ def _texts(state: HullState) -> Iterator[str]:
             yield f"a key of the {table} is no text"
         elif len(set(keys)) < len(keys):
             yield f"a key of the {table} stands there twice"
-    for texts in (state.lines.name.data, state.lines.note.data, state.rows.label.data):
+    for texts in (state.lines.name.data, state.lines.note.data, state.rows.label.data,
+                  state.rows.stands_for.data):  # fmt: skip
         if not _names(texts):
             yield "a name is no text"
     if not all(state.lines.name[line] for line in state.live("lines").tolist()):
         yield "a line has no name"
-    if not set(state.groups.family.data) <= set(FAMILIES):
+    if not set(state.groups.family.data) <= {*FAMILIES, OWN}:
         yield "a family does not exist"
 
 
@@ -161,6 +165,13 @@ def _settings(state: HullState) -> Iterator[str]:
     for link in state.associations:
         if not {link.a, link.b} <= groups:
             yield f"{link.a!r} and {link.b!r} are associated, and are no groups"
+    keys = groups | {state.lines.key[line] for line in state.live("lines").tolist()}
+    for group in state.live("groups").tolist():
+        if not set(state.groups.members[group]) <= keys:
+            yield f"the group {state.groups.name[group]!r} holds what is not there"
+    for each in state.rulings:
+        if not {each.a, each.b} <= keys:
+            yield f"{each.a!r} and {each.b!r} rule by a box, and are no groups or lines"
     if not all(count > 0 for count in state.births.values()):
         yield "a pair of lines bore no crossing"
     if not set(state.failed) <= set(state.live("curves").tolist()):

@@ -60,7 +60,7 @@ AGAIN = (
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
 
-SCHEMA = 8
+SCHEMA = 9
 
 TABLES = """
 CREATE TABLE hull (
@@ -82,7 +82,8 @@ CREATE TABLE hull (
     base INTEGER NOT NULL DEFAULT 0
 );
 CREATE TABLE groups (
-    number INTEGER PRIMARY KEY, name TEXT NOT NULL, family TEXT NOT NULL, alive INTEGER NOT NULL
+    number INTEGER PRIMARY KEY, name TEXT NOT NULL, family TEXT NOT NULL, alive INTEGER NOT NULL,
+    members TEXT NOT NULL DEFAULT '[]'
 );
 CREATE TABLE lines (
     number INTEGER PRIMARY KEY, key TEXT NOT NULL, name TEXT NOT NULL, alive INTEGER NOT NULL,
@@ -103,7 +104,7 @@ CREATE TABLE points (
     birth INTEGER NOT NULL, state INTEGER NOT NULL, revision INTEGER NOT NULL,
     anchor_a INTEGER NOT NULL, anchor_b INTEGER NOT NULL, xyz BLOB NOT NULL,
     direction BLOB, gap_limit BLOB, gap BLOB, base BLOB, anchor_from BLOB, anchor_weight BLOB,
-    faired BLOB
+    faired BLOB, first_role INTEGER NOT NULL DEFAULT -1, stands_for TEXT NOT NULL DEFAULT ''
 );
 CREATE TABLE features (
     number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, key TEXT NOT NULL, kind TEXT NOT NULL,
@@ -121,6 +122,10 @@ CREATE TABLE generated (
 );
 CREATE TABLE associations (
     a TEXT NOT NULL, b TEXT NOT NULL, two_way INTEGER NOT NULL, PRIMARY KEY (a, b)
+);
+CREATE TABLE rulings (
+    place INTEGER PRIMARY KEY, a TEXT NOT NULL, b TEXT NOT NULL, two_way INTEGER NOT NULL,
+    box TEXT NOT NULL
 );
 CREATE TABLE births (
     a TEXT NOT NULL, b TEXT NOT NULL, count INTEGER NOT NULL, PRIMARY KEY (a, b)
@@ -198,19 +203,33 @@ def _add_faired(database: sqlite3.Connection) -> None:
     database.execute("ALTER TABLE points ADD COLUMN faired BLOB")
 
 
+def _add_switches(database: sqlite3.Connection) -> None:
+    """From 8 to 9: what switched associations left, and groups of one's own; none in older ones."""
+    database.execute("ALTER TABLE points ADD COLUMN first_role INTEGER NOT NULL DEFAULT -1")
+    database.execute("ALTER TABLE points ADD COLUMN stands_for TEXT NOT NULL DEFAULT ''")
+    database.execute("ALTER TABLE groups ADD COLUMN members TEXT NOT NULL DEFAULT '[]'")
+    database.execute(
+        "CREATE TABLE rulings (place INTEGER PRIMARY KEY, a TEXT NOT NULL, b TEXT NOT NULL, "
+        "two_way INTEGER NOT NULL, box TEXT NOT NULL)"
+    )
+
+
 MIGRATIONS: Mapping[int, Migration] = {
     1: _add_label_authors, 2: _add_gone, 3: _add_deck, 4: _add_features,
     5: _add_definitions, 6: _add_base, 7: _add_faired,
+    8: _add_switches,
 }  # fmt: skip
 """By version: what brings a file of it to the next one."""
 
 
-_CAME = {"gone": 3, "features": 5, "definitions": 6, "generated": 6}
+_CAME = {"gone": 3, "features": 5, "definitions": 6, "generated": 6, "rulings": 9}
 _GREW = (
     ("labels", 2, ",author TEXT NOT NULL DEFAULT '',time TEXT NOT NULL DEFAULT ''"),
     ("hull", 4, ",deck TEXT NOT NULL DEFAULT 'open'"),
     ("hull", 7, ",base INTEGER NOT NULL DEFAULT 0"),
     ("points", 8, ",faired BLOB"),
+    ("groups", 9, ",members TEXT NOT NULL DEFAULT '[]'"),
+    ("points", 9, ",first_role INTEGER NOT NULL DEFAULT -1,stands_for TEXT NOT NULL DEFAULT ''"),
 )
 """Versions in which tables came, and in which they got columns, without white space."""
 

@@ -30,7 +30,7 @@ from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
 from assoc_hull.model.change import CrossingPositions, TableChange, positions_against
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
-from assoc_hull.model.tables import Association, Ends, HullState, Particulars
+from assoc_hull.model.tables import Association, Ends, HullState, Particulars, Ruling
 
 __all__ = [
     "body_of",
@@ -331,6 +331,7 @@ _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
     "curves.side": (_numbers, _frozen),
     "curves.ends": (lambda ends: [_numbers(ends.kind), ends.vector], _ends_of),
     "lines.curves": (_numbers, tuple),
+    "groups.members": (list, tuple),
     "settings.failed": (_numbers, tuple),
     "featured.feature": (_plain, _feature),
     "formed.definition": (_plain_form, _form),
@@ -339,6 +340,10 @@ _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
     "settings.associations": (
         lambda links: [[each.a, each.b, each.two_way] for each in links],
         lambda said: tuple(Association(a, b, two_way) for a, b, two_way in said),
+    ),
+    "settings.rulings": (
+        lambda rulings: [list(attrs.astuple(each)) for each in rulings],
+        lambda said: tuple(Ruling(a, b, w, tuple(low), tuple(high)) for a, b, w, low, high in said),
     ),
 }
 """By column: to what JSON can say, and back. All other columns of objects hold texts."""

@@ -30,7 +30,7 @@ from assoc_hull.model.change import (
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.kinds import State
-from assoc_hull.model.tables import Association, Ends, HullState, Particulars
+from assoc_hull.model.tables import Association, Ends, HullState, Particulars, Ruling
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -268,7 +268,7 @@ def write_state(
 
 
 def write_settings(database: sqlite3.Connection, state: HullState) -> None:
-    """Write particulars, failures and associations."""
+    """Write particulars, failures, associations and rulings."""
     ship = state.particulars
     database.execute(
         "UPDATE hull SET name = ?, length = ?, breadth = ?, depth = ?, draught = ?, deck = ?, "
@@ -279,6 +279,12 @@ def write_settings(database: sqlite3.Connection, state: HullState) -> None:
     database.execute("DELETE FROM associations")
     links = [(link.a, link.b, int(link.two_way)) for link in state.associations]
     database.executemany("INSERT INTO associations VALUES (?, ?, ?)", links)
+    database.execute("DELETE FROM rulings")
+    ruled = [
+        (place, each.a, each.b, int(each.two_way), json.dumps([each.low, each.high]))
+        for place, each in enumerate(state.rulings)
+    ]
+    database.executemany("INSERT INTO rulings VALUES (?, ?, ?, ?, ?)", ruled)
 
 
 def write_births(database: sqlite3.Connection, counts: Mapping[Pair, int]) -> None:
@@ -313,7 +319,7 @@ def _write_gone(
 def _group_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     table = state.groups
     for i in numbers.tolist():
-        yield i, table.name[i], table.family[i], int(table.alive[i])
+        yield i, table.name[i], table.family[i], int(table.alive[i]), json.dumps(table.members[i])
 
 
 def _line_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
@@ -360,6 +366,7 @@ def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
     pairs = {name: getattr(table, name).take(numbers).astype(int).tolist() for name in _PAIRS}
     reals = {name: _blobs(getattr(table, name), numbers) for name in _REALS}
     xyz = [_real_blob(each) for each in table.xyz[numbers]]
+    first = table.first_role[numbers].astype(int).tolist()
     key = table.key.data.for_looks(len(numbers))
     for place, i in enumerate(numbers.tolist()):
         yield (
@@ -368,7 +375,7 @@ def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
             *pairs["curve"][place], *pairs["kind"][place], *pairs["reader"][place],
             *(whole[name][place] for name in ("driver", "contact", "sign", "birth", "state")),
             revision.get(i, 0), *pairs["anchor"][place], xyz[place],
-            *(reals[name][place] for name in _REALS),
+            *(reals[name][place] for name in _REALS), first[place], table.stands_for[i],
         )  # fmt: skip
 
 
@@ -405,6 +412,11 @@ def read_state(database: sqlite3.Connection) -> HullState:
     state = HullState(Particulars(*said[:6]), Tolerances(**parse_json(said[6])))
     links = read_rows(database, "SELECT a, b, two_way FROM associations ORDER BY a, b")
     state.settings.associations.data[0] = tuple(Association(a, b, bool(w)) for a, b, w in links)
+    ruled = read_rows(database, "SELECT a, b, two_way, box FROM rulings ORDER BY place")
+    state.settings.rulings.data[0] = tuple(
+        Ruling(a, b, bool(way), *(tuple(corner) for corner in parse_json(box)))
+        for a, b, way, box in ruled
+    )
     births = read_rows(database, "SELECT a, b, count FROM births ORDER BY a, b")
     state.settings.births.data[0] = Births.of({(a, b): int(count) for a, b, count in births})
     state.settings.failed.data[0] = tuple(parse_json(said[7]))
@@ -453,9 +465,10 @@ def _put_reals(column: Any, blobs: Sequence[bytes | None]) -> None:
 
 
 def _read_groups(state: HullState, rows: Sequence[Row]) -> None:
-    _, name, family, alive = _columns(rows, 4)
+    _, name, family, alive, members = _columns(rows, 5)
     state.groups.resize(len(rows))
     state.groups.name.data[:], state.groups.family.data[:] = name, family
+    state.groups.members.data[:] = [tuple(parse_json(each)) for each in members]
     _put_whole(state.groups.alive, alive)
 
 
@@ -477,7 +490,7 @@ def _read_lines(state: HullState, rows: Sequence[Row]) -> None:
 def _read_points(state: HullState, rows: Sequence[Row]) -> None:
     table = state.rows
     table.resize(len(rows))
-    found = _columns(rows, 29)
+    found = _columns(rows, 31)
     table.key.data[:], table.label.data[:] = found[1], found[2]
     for name, place in zip(("alive", "sort", "role", "override"), range(3, 7), strict=True):
         _put_whole(getattr(table, name), found[place])
@@ -491,6 +504,8 @@ def _read_points(state: HullState, rows: Sequence[Row]) -> None:
     _put_reals(table.xyz, found[21])
     for name, place in zip(_REALS, range(22, 29), strict=True):
         _put_reals(getattr(table, name), found[place])
+    _put_whole(table.first_role, found[29])
+    table.stands_for.data[:] = found[30]
 
 
 def _read_curves(state: HullState, rows: Sequence[Row]) -> None:

@@ -24,7 +24,7 @@ from assoc_hull.geometry.patches.spline_curve import SplineCurve
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.io.reports import ExportBook
-from assoc_hull.model.kinds import BoundaryKind, Sort
+from assoc_hull.model.kinds import OWN, BoundaryKind, Sort
 from assoc_hull.model.line_source import LineSource, Origin, line_curve_data
 from assoc_hull.model.tables import Association, Ends, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
@@ -75,6 +75,7 @@ def hull_text(state: HullState) -> str:
         "groups": {
             str(state.groups.name[i]): str(state.groups.family[i])
             for i in state.live("groups").tolist()
+            if state.groups.family[i] != OWN
         },
         "associations": [[each.a, each.b, each.two_way] for each in state.associations],
         "features": [[each.kind, each.name] for each in state.features],
@@ -155,6 +156,11 @@ def tell_losses(state: HullState, book: ExportBook) -> None:
         book.leave_out("definitions", "the hull", what, formed)
     if notes:
         book.leave_out("notes", "the lines", f"{len(notes)} notes on lines", len(notes))
+    groups = [i for i in state.live("groups").tolist() if state.groups.family[i] == OWN]
+    if groups:
+        book.leave_out("groups", "the groups", f"{len(groups)} groups of one's own", len(groups))
+    if count := len(state.rulings):
+        book.leave_out("rulings", "the associations", f"{count} rulings by regions", count)
     live = state.live("rows")
     for column, word, none in (
         (state.rows.label, "labels of points", ""), (state.rows.override, "roles by hand", -1),

@@ -167,6 +167,10 @@ def point_columns(state: HullState, order: CanonicalOrder) -> dict[str, Column]:
     watched, faired = _watched(state, rows), table.faired[rows]
     # Of a hull that was never faired nothing is told, as before there was such a thing.
     more: dict[str, Column] = {"faired": faired} if faired.any() else {}
+    # So it is with associations that were never switched.
+    first, stands_for = table.first_role[rows], _texts(table.stands_for, rows)
+    more |= {"first_role": first} if (first >= 0).any() else {}
+    more |= {"stands_for": stands_for} if any(stands_for) else {}
     return {
         "key": _texts(table.key, rows),
         "label": _texts(table.label, rows),
@@ -250,10 +254,13 @@ def retired_keys(state: HullState) -> dict[str, list[str]]:
     """Give the keys of lines, curves and points that were taken out: none may come back.
 
     Dead crossings are not listed: the number of births of their pair of lines rules them out.
+    Nor are stand-ins of crossings: the same one comes back where it is wanted again.
     """
     own = state.rows.sort.data != Sort.CROSSING
     found = {"lines": ~state.lines.alive.data, "curves": ~state.curves.alive.data}
     found["points"] = ~state.rows.alive.data & own
+    for row in state.rows.stands_for.data.given:
+        found["points"][row] = False
     keys = {"lines": state.lines.key, "curves": state.curves.key, "points": state.rows.key}
     return {
         name: sorted(keys[name][number] for number in np.flatnonzero(dead).tolist())

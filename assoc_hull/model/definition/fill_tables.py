@@ -26,7 +26,7 @@ from assoc_hull.model.definition.records import code_words
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import GENERATED, FormDefinition, GeneratedCurve
 from assoc_hull.model.index import build_index
-from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
+from assoc_hull.model.kinds import OWN, BoundaryKind, Role, Sort, State
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.tables import (
     Association,
@@ -38,6 +38,7 @@ from assoc_hull.model.tables import (
     Lines,
     Particulars,
     Rows,
+    Ruling,
 )
 from assoc_hull.tolerance import Tolerances
 
@@ -276,9 +277,9 @@ def put_points(
         kind=[_codes(point.get("kinds", ()), PointKind, 2) for point in points],
         direction=[_pair(point.get("directions", ())) for point in points],
         curve=[_numbers(keys, "curves", point["curves"], point["key"]) for point in points],
-        override=[
-            roles.index(point["override"]) if "override" in point else -1 for point in points
-        ],
+        override=[_role_code(point, "override", roles) for point in points],
+        first_role=[_role_code(point, "first_role", roles) for point in points],
+        stands_for=[point.get("stands_for", "") for point in points],
         contact=[point.get("contact", False) for point in points],
         sign=[point.get("sign", 0) for point in points],
         birth=[point.get("birth", 0) for point in points],
@@ -299,8 +300,9 @@ def put_points(
     _put_riding(state, journal, points, keys)
 
 
-def _override(point: Record, roles: list[str]) -> int:
-    return roles.index(point["override"]) if "override" in point else -1
+def _role_code(point: Record, name: str, roles: list[str]) -> int:
+    """Give the code of a role that a point may have, else -1."""
+    return roles.index(point[name]) if name in point else -1
 
 
 def _check_point(point: Record, *, made: bool = False) -> None:
@@ -327,9 +329,11 @@ def _check_point(point: Record, *, made: bool = False) -> None:
     for name, needed in wanted.items():
         if needed != (name in point):
             raise contradiction(f"{name!r} is {'missing' if needed else 'out of place'}", where)
-    for name in ("contact", "sign", "override"):
+    for name in ("contact", "sign", "override", "first_role"):
         if name in point and not crossing:
             raise contradiction(f"{name!r} is out of place at a {point['sort']} point", where)
+    if "stands_for" in point and crossing:
+        raise contradiction("a crossing stands in for none", where)
     if "riding" in point and point["sort"] != "adopted":
         raise contradiction(f"a {point['sort']} point cannot ride", where)
 
@@ -582,6 +586,7 @@ def make_tables(definition: Record) -> HullState:
     put_defining(state, journal, parts[1], keys)
     _check_births(state)
     put_meetings(state, journal, parts[1], keys.find)
+    _put_rulings(state, journal, definition.get("rulings", ()), keys)
     put_features(state, journal, definition.get("features", ()), keys)
     put_forms(state, journal, definition, keys)
     _retire(state, journal, gone)
@@ -606,7 +611,14 @@ def _put_groups(
     state: HullState, journal: Journal, groups: list[Record], definition: Record, keys: Keys
 ) -> None:
     names, families = [each["name"] for each in groups], [each["family"] for each in groups]
-    add_rows(state.groups, journal, len(groups), name=names, family=families)
+    members = [tuple(each.get("members", ())) for each in groups]
+    for name, family, mine in zip(names, families, members, strict=True):
+        if mine and family != OWN:
+            raise contradiction(f"the group {name!r} of a family has members", "in the groups")
+        for member in mine:
+            if member not in names:
+                keys.find("lines", member, f"the group {name!r}")
+    add_rows(state.groups, journal, len(groups), name=names, family=families, members=members)
     links = [Association(**link) for link in definition["associations"]]
     for link in links:
         for name in (link.a, link.b):
@@ -619,6 +631,20 @@ def _put_groups(
         raise contradiction("a pair of lines stands there twice", "in the births")
     journal.set(state.settings.associations, [0], [tuple(links)])
     journal.set(state.settings.births, [0], [Births.of(births)])
+
+
+def _put_rulings(state: HullState, journal: Journal, rulings: Sequence[Record], keys: Keys) -> None:
+    names = set(state.groups.name.data)
+    for each in rulings:
+        for name in (each["a"], each["b"]):
+            if name not in names:
+                keys.find("lines", name, "a ruling")
+    if rulings:
+        found = tuple(
+            Ruling(**{**each, "low": tuple(each["low"]), "high": tuple(each["high"])})
+            for each in rulings
+        )
+        journal.set(state.settings.rulings, [0], [found])
 
 
 def _put_lines(state: HullState, journal: Journal, lines: list[Record], keys: Keys) -> None:

@@ -39,6 +39,7 @@ from assoc_hull.model.definition.records import (
     definition_columns,
     generated_columns,
     plain_fields,
+    ruling_records,
 )
 from assoc_hull.model.tables import HullState
 
@@ -95,7 +96,10 @@ def fingerprint_parts(state: HullState, order: CanonicalOrder) -> Iterator[tuple
 def _settings(state: HullState, order: CanonicalOrder) -> list[object]:
     """Give the parts of a definition that hold texts and counts only."""
     names = [(state.groups.name[i], state.groups.family[i]) for i in order.groups.tolist()]
-    return [names, association_records(state), birth_records(state), retired_keys(state)]
+    members = [state.groups.members[i] for i in order.groups.tolist()]
+    found = [names, association_records(state), birth_records(state), retired_keys(state)]
+    found += [ruling_records(state)] if state.rulings else []
+    return [*found, *([{"members": members}] if any(members) else ())]
 
 
 def column_bytes(name: str, column: Column) -> bytes:

@@ -36,6 +36,7 @@ from assoc_hull.model.definition.records import (
     definition_records,
     generated_records,
     plain_fields,
+    ruling_records,
 )
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import CurveIntersections, HullState
@@ -272,6 +273,11 @@ class HashTree:
             table.state[rows], riding, met.sign[turn],
         ]  # fmt: skip
         reals = [table.direction[rows], np.where(watched, table.limit[rows], 0.0)]
+        first, stands_for = table.first_role[rows], table.stands_for.data
+        if (first >= 0).any():
+            numbers.append(first)
+        if stood := [stands_for[row] for row in rows.tolist() if stands_for[row]]:
+            texts.append(stood)
         if curve >= 0:
             ends = curves.ends[curve]
             texts.append([curves.key[curve], bool(curves.alive[curve])])
@@ -306,7 +312,8 @@ class HashTree:
         below = [_named(keys, line) for line in self._lines[group]]
         if group < 0:
             return _hash([below])
-        return _hash([table.name[group], table.family[group], bool(table.alive[group]), below])
+        told = [table.name[group], table.family[group], bool(table.alive[group]), below]
+        return _hash([*told, *([table.members[group]] if table.members[group] else ())])
 
     def _rest_part(self) -> bytes:
         """Hash what hangs below no line: particulars, associations, births, definitions."""
@@ -318,6 +325,7 @@ class HashTree:
             words, list(association_records(state)), list(birth_records(state)),
             retired_keys(state), list(definition_records(state)), list(generated_records(state)),
             [_named(self.state.groups.name.data, group) for group in self._groups],
+            *([ruling_records(state)] if state.rulings else ()),
         ]  # fmt: skip
         return _hash(told, np.array(reals, np.float64))
 

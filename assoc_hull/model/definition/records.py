@@ -126,10 +126,10 @@ def definition(state: HullState) -> dict[str, object]:
         ``particulars`` and ``tolerances`` (m, degrees), and lists sorted by key or name:
         ``groups``, ``associations``, ``lines``, ``curves``, ``points``, ``births`` (line,
         line, how many crossings the pair ever had), ``retired`` (keys that must not come
-        back) and, of a hull that has any, ``features``, ``definitions`` (by form parameters)
-        and ``generated`` (curves that come from these). What has its default is left out: an
-        open deck, notes, labels, free ends, zero directions, smooth passage, overrides, zero
-        signs.
+        back) and, of a hull that has any, ``features``, ``rulings`` (which lines rule where),
+        ``definitions`` (by form parameters) and ``generated`` (curves that come from these).
+        What has its default is left out: an open deck, notes, labels,
+        free ends, zero directions, smooth passage, overrides, zero signs.
         ``meets`` of a curve lists, per associated line and along the curve, the sign of
         each intersection and the crossing it is, or None. ``value`` of a point (x, y, z; m)
         stands only where nothing else gives it; a ``riding`` point has ``anchors``,
@@ -139,6 +139,7 @@ def definition(state: HullState) -> dict[str, object]:
     order = canonical_order(state)
     more = {
         "features": list(_feature_records(state)),
+        "rulings": ruling_records(state),
         "definitions": list(definition_records(state)),
         "generated": list(generated_records(state)),
     }
@@ -147,6 +148,7 @@ def definition(state: HullState) -> dict[str, object]:
         "tolerances": plain_fields(state.tolerances),
         "groups": [
             {"name": state.groups.name[i], "family": state.groups.family[i]}
+            | ({"members": list(state.groups.members[i])} if state.groups.members[i] else {})
             for i in order.groups.tolist()
         ],
         "associations": association_records(state),
@@ -177,6 +179,13 @@ def plain_fields(fields: attrs.AttrsInstance) -> Record:
 def association_records(state: HullState) -> list[Record]:
     found = sorted((link.a, link.b, bool(link.two_way)) for link in state.associations)
     return [{"a": a, "b": b, "two_way": two_way} for a, b, two_way in found]
+
+
+def ruling_records(state: HullState) -> list[Record]:
+    return [
+        {**attrs.asdict(each), "low": list(each.low), "high": list(each.high)}
+        for each in state.rulings
+    ]
 
 
 def birth_records(state: HullState) -> list[list[object]]:
@@ -327,6 +336,10 @@ def _point_records(state: HullState, order: CanonicalOrder) -> Iterator[Record]:
             record["state"] = _STATES[row["state"]]
         if any(row.get("faired", ())):
             record["faired"] = row["faired"]
+        if row.get("first_role", -1) >= 0:
+            record["first_role"] = _ROLES[row["first_role"]]
+        if row.get("stands_for"):
+            record["stands_for"] = row["stands_for"]
         yield record
 
 

@@ -23,7 +23,7 @@ from assoc_hull.geometry.curves import EndKind, PointKind
 from assoc_hull.model.definition.records import code_words
 from assoc_hull.model.features import FEATURE_KINDS
 from assoc_hull.model.form_definition import FORM_KINDS, GENERATED, RULES
-from assoc_hull.model.kinds import FAMILIES, BoundaryKind, Role, Sort, State
+from assoc_hull.model.kinds import FAMILIES, OWN, BoundaryKind, Role, Sort, State
 from assoc_hull.model.tables import DECKS, Particulars
 from assoc_hull.model.value_schema import (
     COUNT,
@@ -109,6 +109,10 @@ _POINT = record(
         "value": _VECTOR,
         "state": _STATE,
         "faired": described(_VECTOR, "how far fairing has taken it from its given value, m"),
+        "first_role": described(
+            one_of(code_words(Role)), "of a crossing before its association was switched"
+        ),
+        "stands_for": described(NAME, "key of the crossing whose place a stand-in holds"),
     },
 )
 
@@ -132,6 +136,20 @@ _FEATURE = record(
         ),
         "gap": described(NOT_NEGATIVE, "how far its points lie off it at most, m"),
     },
+)
+
+
+_CORNER = described(
+    tuple_of(or_none(REAL), or_none(REAL), or_none(REAL)), "of a box, m; null where it has no bound"
+)
+_RULING = record(
+    {
+        "a": described(NAME, "name of a group, or key of a line"),
+        "b": described(NAME, "likewise"),
+        "two_way": TRUTH,
+        "low": _CORNER,
+        "high": _CORNER,
+    }
 )
 
 
@@ -179,7 +197,12 @@ DEFINITION = record(
             record(_fields(Particulars, POSITIVE, ("deck",)), {"deck": _DECK}), "m"
         ),
         "tolerances": described(record(_fields(Tolerances, NOT_NEGATIVE)), "m, parts and degrees"),
-        "groups": list_of(record({"name": NAME, "family": one_of(tuple(FAMILIES))})),
+        "groups": list_of(
+            record(
+                {"name": NAME, "family": one_of((*FAMILIES, OWN))},
+                {"members": described(list_of(NAME), "keys of lines and names of groups")},
+            )
+        ),
         "associations": described(
             list_of(record({"a": TEXT, "b": TEXT, "two_way": TRUTH})),
             "lines of group a generate points on those of b, and back if two_way",
@@ -200,6 +223,7 @@ DEFINITION = record(
         "features": described(
             list_of(_FEATURE), "circles, arcs, flats and so on; none if not told"
         ),
+        "rulings": described(list_of(_RULING), "which lines rule where; none if not told"),
         "definitions": described(list_of(_FORM), "curves of form parameters; none if not told"),
         "generated": described(list_of(_MADE), "curves that come from these; none if not told"),
     },

@@ -35,11 +35,23 @@ __all__ = [
     "wait_for_engine",
 ]
 
-_MAKE = """
+_ALONE = """
+import contextlib, os, assoc_hull
+with contextlib.suppress(ImportError, OSError):
+    import fcntl
+    fcntl.flock(os.open(os.path.dirname(assoc_hull.__file__), os.O_RDONLY), fcntl.LOCK_EX)
+"""
+"""Lets one process compile at a time: the next one finds what was compiled, and does not anew.
+
+It locks the folder of the package, as long as the process lives; where that cannot be, each goes
+on."""
+
+_MAKE = f"""
 import os, sys
 again, *sys.path[:] = sys.argv[1:]
 if again == "no" and hasattr(os, "nice"):
     os.nice(5)
+{_ALONE}
 from assoc_hull.edit.recut import compiled_images
 from assoc_hull.geometry.floating import compiled_doubts, compiled_immersion, compiled_sections
 from assoc_hull.geometry.surfaces import compiled_cells

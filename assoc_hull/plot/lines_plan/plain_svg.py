@@ -7,8 +7,8 @@ Examples
 --------
 >>> from assoc_hull.plot.lines_plan.plain_svg import plain_svg
 >>> from assoc_hull.shipped.wigley import wigley
->>> plain_svg(wigley().state)[:24]
-'<svg viewBox="0 0 9600 28'
+>>> plain_svg(wigley())[:22]
+'<svg viewBox="0 0 9600'
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING
 
 import attrs
@@ -19,7 +19,7 @@ from assoc_hull.plot.sheet.view import View
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["captions", "lines_plan", "window_rows"]
+__all__ = ["captions", "lines_plan", "plan_block", "window_rows"]
 
 
 def lines_plan(
@@ -83,7 +83,7 @@ def lines_plan(
     sheet = Sheet(paper)
     layout = lay_out_views(plan, sheet.paper)
     frame(sheet, MARGIN * sheet.paper.factor)
-    below = _block(sheet, whole, layout, title or plan.particulars.name, plan.window)
+    below = plan_block(sheet, whole, layout, title or plan.particulars.name, plan.window)
     captions(sheet, plan, layout)
     views = Views(sheet, plan, layout.low, layout.high, tinted)
     views.profile(layout.profile)
@@ -97,10 +97,11 @@ def lines_plan(
     return sheet.figure
 
 
-def _block(
-    sheet: Sheet, plan: Drawing, layout: ViewLayout, title: str, window: tuple[float, float] | None
-) -> tuple[float, float]:
-    """Write the particulars, and the scales below them; give the place below these, mm."""
+def plan_block(
+    sheet: Sheet, plan: Drawing, layout: ViewLayout, title: str,
+    window: tuple[float, float] | None, more: Sequence[tuple[str, str]] = (),
+) -> tuple[float, float]:  # fmt: skip
+    """Write the particulars, `more` rows, the scales below; give the place below these, mm."""
     factor = sheet.paper.factor
     width = BLOCK * factor
     profile, body = layout.profile, layout.body
@@ -109,7 +110,7 @@ def _block(
         "Moulded lines, m; x forward from AP, z upward from the base line.",
         "Aft body left, fore body right. Dash-dotted: borders of the flats.",
     )
-    rows = [*particulars_of(plan), ("Scale", scales), *window_rows(window)]
+    rows = [*particulars_of(plan), ("Scale", scales), *window_rows(window), *more]
     lower = title_block(sheet, layout.corner, width, title, rows, notes)
     x = layout.corner[0] - width + 4.0 * factor
     bars = ((profile, "Profile, half-breadth plan"), (body, "Body plan"))

@@ -52,6 +52,9 @@ SAME = 1e-9
 _STEP = 0.02
 """Part of all changes with which a search begins."""
 
+_BODY = {"body start": "parallel_body_start", "body end": "parallel_body_end"}
+"""Places of the parent at the ends of its parallel body, and what asks for them."""
+
 _ROUND = 1e-6
 """m: a circle whose centre is as near as this to a place is about it."""
 
@@ -141,13 +144,27 @@ class AdmissibleValues:
             Two parameters that are one number.
         """
         refuse_clashes(asked, self.layout)
-        # transom and flat of bottom are bounded by the breadth that is asked for, not the present
-        # one
-        parent = attrs.evolve(self.parent, breadth=asked.get("breadth", self.parent.breadth))
+        parent = self._bounding(asked)
         for name, value in asked.items():
             rule = value_bounds(name, parent, self.present[name], self.layout)
             if not rule.hold(value):
                 raise self._outside(name, value, rule.why)
+
+    def _bounding(self, asked: Mapping[str, float]) -> Parent:
+        """Give what bounds values: breadth and ends of the parallel body are those asked for."""
+        breadth = asked.get("breadth", self.parent.breadth)
+        longer = asked.get("length", self.parent.length) / self.parent.length
+        ends = {
+            place: float(asked.get(name, longer * self.parent.places[place][0]))
+            for place, name in _BODY.items() if self.parent.has(place)
+        }  # fmt: skip
+        body = asked.get("parallel_body_length")
+        if body is not None and "parallel_body_start" in asked:
+            ends["body end"] = asked["parallel_body_start"] + body
+        elif body is not None and "parallel_body_end" in asked:
+            ends["body start"] = asked["parallel_body_end"] - body
+        places = {place: np.array([x, 0.0, 0.0]) for place, x in ends.items()}
+        return attrs.evolve(self.parent, breadth=breadth, places={**self.parent.places, **places})
 
     def map(self, asked: Mapping[str, float]) -> VariationMap:
         """Lay out a map, or refuse with the value that cannot be laid out.

@@ -7,12 +7,14 @@ who has the edit sees the hull between them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from operator import is_
 from typing import TYPE_CHECKING
 
 import attrs
 import numpy as np
 
 from assoc_hull.edit.nudge import Nudge
+from assoc_hull.edit.step import Step
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.variation.carrying.admissible_values import SAME, AdmissibleValues
@@ -27,7 +29,7 @@ from assoc_hull.variation.request import VariationRequest
 if TYPE_CHECKING:
     from assoc_hull.variation.faired_followers import ParentLines
 
-__all__ = ["CarriedMap", "StagedCarry"]
+__all__ = ["CarriedMap", "DoneStage", "StagedCarry"]
 
 
 _PINNED = 5e-8
@@ -77,6 +79,28 @@ class CarriedMap:
         return (*self.map.regions(), *self.applied.regions)
 
 
+@attrs.frozen(eq=False)
+class DoneStage:
+    """A stage of a plan that was carried out.
+
+    Attributes
+    ----------
+    stage : Stage
+        The stage.
+    aims : mapping of str to float, m or degrees
+        What its maps were to give the parameters.
+    steps : tuple of Step
+        What the edit held when it was done.
+    carried : tuple of CarriedMap
+        All maps up to it.
+    """
+
+    stage: Stage
+    aims: Mapping[str, float]
+    steps: tuple[Step, ...]
+    carried: tuple[CarriedMap, ...]
+
+
 @attrs.define(eq=False)
 class StagedCarry:
     """A plan that is carried out within an edit.
@@ -101,6 +125,8 @@ class StagedCarry:
         What is measured of the hull as it came, if it is at hand.
     lines : ParentLines or None
         The lines of the hull as it came, where followers are to be faired.
+    done : list of DoneStage
+        Those that the edit holds, with their aims; another plan may go on from them.
     """
 
     edit: Transaction
@@ -112,9 +138,10 @@ class StagedCarry:
     refused: Stage | None = None
     base: AdmissibleValues | None = None
     lines: ParentLines | None = None
+    done: list[DoneStage] = attrs.field(factory=list)
 
     def run(self, aims: Mapping[str, float]) -> None:
-        """Carry the hull as it came by all stages; whatever was carried before is taken back.
+        """Carry the hull as it came by all stages; other things carried before are taken back.
 
         Parameters
         ----------
@@ -126,9 +153,7 @@ class StagedCarry:
         BadInputError, FoldError, OutOfRangeError, RefusedEditError
             A stage cannot be had, however finely it is taken: what was wrong with it at first.
         """
-        self.edit.take_back()
-        self.carried.clear()
-        at, first = 0, dict[str, AssocHullError]()
+        at, first = self._keep_stages(aims), dict[str, AssocHullError]()
         while at < len(self.plan):
             stage, keep, kept = self.plan[at], self.edit.stages, len(self.carried)
             try:
@@ -145,6 +170,22 @@ class StagedCarry:
                 del self.carried[kept:]
             else:
                 at += 1
+                mine = {name: aims[name] for name in stage.names}
+                self.done.append(DoneStage(stage, mine, self.edit.steps, tuple(self.carried)))
+
+    def _keep_stages(self, aims: Mapping[str, float]) -> int:
+        """Take back all but the first stages that were carried out as they would be now."""
+        there, at = self.edit.steps, 0
+        for stage, done in zip(self.plan, self.done, strict=False):
+            held = len(done.steps) <= len(there) and all(map(is_, done.steps, there))
+            if not held or stage != done.stage or any(aims[n] != v for n, v in done.aims.items()):
+                break
+            at += 1
+        del self.done[at:]
+        last = self.done[-1] if self.done else None
+        self.edit.take_back(0 if last is None else len(last.steps))
+        self.carried[:] = () if last is None else last.carried
+        return at
 
     def _carry(self, stage: Stage, aims: Mapping[str, float]) -> None:
         """Carry the hull by one stage, part by part."""

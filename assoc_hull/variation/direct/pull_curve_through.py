@@ -370,7 +370,7 @@ def pull_through(
     handles = {point.row: point for point in own.defining}
     for i in moved.tolist():
         to = {axis: float(xyz[i, AXES.index(axis)]) for axis in free_axes(state, rows[i])}
-        edit.move(handles[rows[i]], **to)
+        edit.move(handles[rows[i]], lead=False, **to)
     return tuple(handles[rows[i]] for i in moved.tolist())
 
 

@@ -2,13 +2,14 @@
 
 The bilge is sought on the section nearest to midship: between the borders of the flats, or between
 the straight runs of bottom and side. The parallel body is where the borders of all flats run
-level; without them, where sections are as large as the largest. A function's name is that of its
+level; without them, where sections are equal in shape. A function's name is that of its
 parameter; what it puts into `numbers` stands in its docstring, in m or degrees.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cache, partial
 
 import attrs
 import numpy as np
@@ -21,6 +22,7 @@ from assoc_hull.geometry.splines.plane_intersections import points_at_coordinate
 from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter
 
 __all__ = [
+    "SHORTEST_BODY",
     "MeasuredBilge",
     "bilge_radius",
     "deadrise_deg",
@@ -319,11 +321,16 @@ def _edge(place: FloatArray, how: str, hull: DrawnCurves, curves: list[int]) -> 
 # largest over many metres more, and a waterline that is a millimetre off moves the end of that by
 # as many, or to the next station.
 
-_SHORT = 0.02
+SHORTEST_BODY = 0.02
 """What is level over less than this part of Lpp is no parallel middle body."""
 
 _EQUAL = 2e-5
 """Sections are equal in shape where they are as near to each other as this part of the breadth."""
+
+_TWO = float(np.sqrt(2.0))
+"""Two curves, each adopted within a tolerance of its own, may be so many times that apart."""
+
+_FOR = "curves were adopted no nearer"
 
 
 @attrs.frozen
@@ -384,7 +391,7 @@ def _of_flats(hull: DrawnCurves) -> _Ends | None:
     runs = [_level_run(hull.one(i).xyz, 1, within) for i in bottoms]
     runs += [_level_run(hull.one(i).xyz, 2, within) for i in sides]
     start, end = max(run[0] for run in runs), min(run[1] for run in runs)
-    if end - start < _SHORT * hull.length:
+    if end - start < SHORTEST_BODY * hull.length - _LEVEL:
         return None
     how = "where the borders of the flats of bottom and side run level"
     return _Ends(start, end, how, (*bottoms, *sides))
@@ -406,37 +413,76 @@ def _level_run(xyz: FloatArray, axis: int, within: float) -> tuple[float, float]
 
 
 def _of_sections(hull: DrawnCurves) -> _Ends | str:
-    """Give the longest stretch along which sections below the draught are equal in shape."""
+    """Give the longest stretch along which sections below the draught are equal in shape.
+
+    Where there is none, sections and what runs along the ship between them are equal as far as
+    adoption knows them: the curves of a mesh or of digitised lines tell no more.
+    """
     across = np.flatnonzero(np.isfinite(hull.net.x))  # flat ends among them
     x = hull.net.x[across]
-    stations = [across[x == each].tolist() for each in np.unique(x)]
+    stations = [tuple(across[x == each].tolist()) for each in np.unique(x)]
     if not stations:
         return "parent has no section across the ship"
-    within = _EQUAL * hull.ship.breadth
+    apart = cache(partial(_apart, hull))
+    found = _longest(hull, stations, apart, _EQUAL * hull.ship.breadth)
+    if found is None:
+        known = _TWO * hull.state.tolerances.adoption
+        found = _longest(hull, stations, apart, known, between=True)
+        if found is None:
+            return "parent has no parallel middle body"
+        found = attrs.evolve(found, how=f"{found.how} within {1e3 * known:.3g} mm, for {_FOR}")
+    return found
+
+
+def _longest(
+    hull: DrawnCurves, stations: Sequence[tuple[int, ...]],
+    apart: Callable[[tuple[int, ...], tuple[int, ...]], float], within: float, *,
+    between: bool = False,
+) -> _Ends | None:  # fmt: skip
+    """Give the longest run of sections within a distance (m) of the first of the run.
+
+    With `between` what runs along the ship from one to the next is to be as near as that, too.
+    """
     runs = [[stations[0]]]
     for station in stations[1:]:
-        if _apart(hull, runs[-1][0], station) <= within:
+        first, last = runs[-1][0], runs[-1][-1]
+        alike = apart(first, station) <= within
+        if alike and (not between or _bulge(hull, first, last, station) <= within):
             runs[-1].append(station)
         else:
             runs.append([station])
     found = [(float(hull.net.x[run[0][0]]), float(hull.net.x[run[-1][0]]), run) for run in runs]
     start, end, run = max(found, key=lambda each: each[1] - each[0])
-    if end - start < _SHORT * hull.length:
-        return "parent has no parallel middle body"
+    if end - start < SHORTEST_BODY * hull.length - _LEVEL:
+        return None
     curves = tuple(curve for station in run for curve in station)
     return _Ends(start, end, "where sections below the draught are equal in shape", curves)
 
 
 def _apart(hull: DrawnCurves, one: Sequence[int], other: Sequence[int]) -> float:
     """Give how far two sections are apart below the draught, seen along the ship, m."""
-    ship, away = hull.ship, 0.0
+    away = 0.0
     for mine, theirs in ((one, other), (other, one)):
         xyz = sample(hull.some(mine), _SAMPLES)[1]
-        xyz = xyz[xyz[:, 2] <= ship.draught]
-        if not len(xyz):
-            return np.inf
-        beside = np.column_stack([np.full(len(xyz), hull.net.x[theirs[0]]), xyz[:, 1:]])
-        curves = hull.some(theirs)
-        off = [closest_points(curves, i, beside)[2] for i in range(len(theirs))]
-        away = max(away, float(np.min(off, axis=0).max()))
+        xyz = xyz[xyz[:, 2] <= hull.ship.draught]
+        away = max(away, _off_section(hull, theirs, xyz) if len(xyz) else np.inf)
     return away
+
+
+def _bulge(
+    hull: DrawnCurves, section: Sequence[int], aft: Sequence[int], fore: Sequence[int]
+) -> float:
+    """Give how far what runs along the ship between two sections leaves a section's shape, m."""
+    along = np.flatnonzero(~np.isfinite(hull.net.x)).tolist()
+    xyz = sample(hull.some(along), _SAMPLES)[1] if along else np.zeros((0, 3))
+    start, end = hull.net.x[aft[0]], hull.net.x[fore[0]]
+    inside = (xyz[:, 0] >= start) & (xyz[:, 0] <= end) & (xyz[:, 2] <= hull.ship.draught)
+    return _off_section(hull, section, xyz[inside]) if inside.any() else 0.0
+
+
+def _off_section(hull: DrawnCurves, section: Sequence[int], xyz: FloatArray) -> float:
+    """Give the farthest that places, seen along the ship, lie off a section, m."""
+    beside = np.column_stack([np.full(len(xyz), hull.net.x[section[0]]), xyz[:, 1:]])
+    curves = hull.some(section)
+    off = [closest_points(curves, i, beside)[2] for i in range(len(section))]
+    return float(np.min(off, axis=0).max())

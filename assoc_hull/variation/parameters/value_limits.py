@@ -23,6 +23,7 @@ from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.compose_map import STEEPEST
 from assoc_hull.variation.parameters.field_layout import Layout
 from assoc_hull.variation.parameters.measurement import Measures
+from assoc_hull.variation.parameters.midship_measures import SHORTEST_BODY
 from assoc_hull.variation.parameters.paper_regions import regions_of
 from assoc_hull.variation.parameters.parent import Parent
 
@@ -126,9 +127,33 @@ def _deadrise_deg(parent: Parent, present: float, layout: Layout) -> ValueBounds
     return ValueBounds(least, most, "turns the bottom too far for the side to take it up")
 
 
+_SHORT = f"leaves a parallel body of less than {100.0 * SHORTEST_BODY:g} % of Lpp, which is none"
+
+
+def _parallel_body_start(parent: Parent, present: float, layout: Layout) -> ValueBounds:
+    """Leave a parallel body that is long enough to be measured."""
+    room = SHORTEST_BODY * parent.length
+    high = float(parent.places["body end"][0]) - room if parent.has("body end") else math.inf
+    return ValueBounds(0.0, high, _SHORT)
+
+
+def _parallel_body_end(parent: Parent, present: float, layout: Layout) -> ValueBounds:
+    """Leave a parallel body that is long enough to be measured."""
+    room = SHORTEST_BODY * parent.length
+    low = float(parent.places["body start"][0]) + room if parent.has("body start") else 0.0
+    return ValueBounds(low, math.inf, _SHORT)
+
+
+def _parallel_body_length(parent: Parent, present: float, layout: Layout) -> ValueBounds:
+    """Leave a parallel body that is long enough to be measured."""
+    return ValueBounds(SHORTEST_BODY * parent.length, math.inf, _SHORT)
+
+
 _RULES: Mapping[str, Callable[[Parent, float, Layout], ValueBounds]] = {
     "transom_half_breadth": _transom_half_breadth, "flat_of_bottom": _flat_of_bottom,
     "bulb_length": _bulb_length, "deadrise_deg": _deadrise_deg,
+    "parallel_body_start": _parallel_body_start, "parallel_body_end": _parallel_body_end,
+    "parallel_body_length": _parallel_body_length,
 }  # fmt: skip
 
 

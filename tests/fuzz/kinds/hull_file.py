@@ -57,7 +57,7 @@ def base() -> bytes:
     """A small hull with a history: edits, an undone one, a branch and a checkpoint."""
     hull = Hull(wigley_sources(2, 2, 1).adopt())
     with hull.edit("features") as edit:
-        edit.insert("ST 1", (100 / 3, 1.2, 0.9))
+        edit.insert("ST 1", (100 / 3, 1.2, 0.9), lead=False)
         edit.set_end("ST 2", "start", tangent=(0.0, 1.0, 0.1))
     hull.checkpoint("here")
     with hull.edit("more") as edit:

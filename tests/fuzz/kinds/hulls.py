@@ -28,7 +28,7 @@ def edited_text() -> str:
     """Of three families, with most of what a definition can tell."""
     hull = Hull(wigley_sources(2, 2, 1).adopt())
     with hull.edit("features") as edit:
-        edit.insert("ST 1", (100 / 3, 1.2, 0.9))
+        edit.insert("ST 1", (100 / 3, 1.2, 0.9), lead=False)
         edit.set_end("ST 2", "start", tangent=(0.0, 1.0, 0.1))
         edit.set_role("WL 2.083 x ST 2", "drives a")
         edit.rename("WL 2.083 x ST 1", "bilge")

@@ -155,14 +155,14 @@ def test_one_step_is_told_in_full(
 ) -> None:
     """What was asked for can be asked again as it stands there; the report is that of the edit."""
     found = facts("history", twice, "--step", "2")
-    assert found["edits"] == [{"op": "move", "point": POINT, "y": 3.21}]
+    assert found["edits"] == [{"op": "move", "point": POINT, "y": 3.21, "lead": False}]
     assert (found["name"], found["parent"]) == ("fuller still", 1)
     assert found["report"]["relofted"] == list(ah.open(twice).history[1].relofted)
     facts("undo", twice)
     assert facts("edit", twice, edits(found["edits"]))["fingerprint"] == found["fingerprint"]
     assert main(["history", str(twice), "--step", "2"]) == 0
     told = capsys.readouterr().out
-    assert '{"op": "move", "point": "WL 2.5 x ST 7", "y": 3.21}' in told
+    assert '{"op": "move", "point": "WL 2.5 x ST 7", "y": 3.21, "lead": false}' in told
     assert "curves re-lofted" in told
     assert main(["history", str(twice), "--step", "9"]) == 2
     assert "step 9 was asked, and there are 3" in capsys.readouterr().err

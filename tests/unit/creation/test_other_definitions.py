@@ -55,7 +55,7 @@ def test_an_edit_by_hand_survives(ship: Hull) -> None:
     point = next(each for each in ship.points if each.startswith("ST 17 @"))
     with ship.edit("by hand") as edit:
         _, y, z = ship.points[point].position
-        edit.move(point, y=y + 0.02, z=z)
+        edit.move(point, y=y + 0.02, z=z, lead=False)
     (finding,) = ship.check()
     assert (finding.kind, finding.object) == ("detached", "ST 17")
     drawn = ship.lines["ST 17"].curves[0].polyline(8)

@@ -109,7 +109,7 @@ def widen(state: HullState) -> None:
         edit.set_role(POINT, "watched")
     with Edit(document, "fill out") as edit:
         x, y, _ = state.rows.xyz[row_of(state, "WL 2.5 @ adopted 1")].tolist()
-        edit.move("WL 2.5 @ adopted 1", x=x, y=y + 0.005)
+        edit.move("WL 2.5 @ adopted 1", x=x, y=y + 0.005, lead=False)
     put(state, "rows", "limit", row_of(state), 0.5 * state.rows.gap[row_of(state)])
 
 

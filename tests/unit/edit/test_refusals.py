@@ -90,4 +90,4 @@ def _fold(hull: ah.Hull) -> None:
     with hull.edit("fold") as edit:
         line = edit.add_line("buttocks", 2.0)
         start = line.curves[0].at(3.0)
-        edit.insert(line.curves[0], (start[0] - 8.0, 2.0, start[2] - 0.02))
+        edit.insert(line.curves[0], (start[0] - 8.0, 2.0, start[2] - 0.02), lead=False)

@@ -214,7 +214,7 @@ def _say_again(hull: ah.Hull) -> dict[str, Callable[[Edit], object]]:
     link = next(each for each in hull.state.associations if each.a != "boundary")
     return {
         "nothing": lambda edit: None,
-        "move": lambda edit: edit.move(point, **place),
+        "move": lambda edit: edit.move(point, lead=False, **place),
         "pull": lambda edit: edit.pull(point, 0.0),
         "set_end": lambda edit: edit.set_end(curve, "start"),
         "set_kind": lambda edit: edit.set_kind(point, "smooth"),
@@ -222,7 +222,7 @@ def _say_again(hull: ah.Hull) -> dict[str, Callable[[Edit], object]]:
         "rename": lambda edit: edit.rename(line, line.name),
         "associate": lambda edit: edit.associate(link.a, link.b, two_way=link.two_way),
         "all": lambda edit: (
-            edit.move(point, **place),
+            edit.move(point, lead=False, **place),
             edit.set_end(curve, "finish"),
             edit.set_kind(point, "smooth"),
         ),

@@ -35,7 +35,7 @@ def move(hull: ah.Hull, place: tuple[float, float], to: tuple[float, float]) -> 
         if name.startswith("ST 0") and (each.y, each.z) == place
     ]
     with hull.edit("move") as edit:
-        edit.move(point, y=to[0], z=to[1])
+        edit.move(point, y=to[0], z=to[1], lead=False)
 
 
 @pytest.mark.parametrize(

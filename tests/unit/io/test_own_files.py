@@ -44,7 +44,7 @@ def edited(shipped: Shipped) -> Hull:
     hull = shipped("wigley")
     with hull.edit("by hand") as edit:
         edit.move("WL 2.5 x ST 10", y=3.4)
-        edit.insert("WL 3.125", (42.3, 3.72, 3.125))
+        edit.insert("WL 3.125", (42.3, 3.72, 3.125), lead=False)
         edit.set_kind("WL 5 x ST 4", "knuckle")
         edit.set_kind("WL 5 x ST 8", "tangent", direction=(1.0, 0.05, 0.0))
         edit.set_end("WL 1.25", "start", tangent=(1.0, 0.3, 0.0))

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import select
 import subprocess
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
+import assoc_hull
 from assoc_hull.cli import main
 from assoc_hull.model.program import engine as program_engine
 from assoc_hull.model.program.engine import engine_words, wait_for_engine
@@ -48,10 +51,15 @@ def test_without_numba_numpy_serves_and_says_what_to_install(
     assert "pip install 'assoc-hull[fast]'" in engine_words()
 
 
-def test_numpy_serves_while_a_child_compiles(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_numpy_serves_while_a_child_compiles(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     """When the child is done the compiled form serves."""
-    child_that(monkeypatch, "import sys; sys.stdin.read()")
+    told = tmp_path / "told"
+    code = f"import os, time\nwhile not os.path.exists({str(told)!r}):\n    time.sleep(0.01)"
+    child_that(monkeypatch, code)
     assert engine_words() == "numpy: the compiled form is being made"
+    told.touch()
     assert wait_for_engine() == "compiled by numba"
 
 
@@ -97,6 +105,23 @@ def test_what_a_child_compiles_is_found_by_another_process() -> None:
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.split("\n")[:3] == ["compiled by numba", "1 1 1 1", "True"], found
+
+
+def test_two_processes_do_not_compile_the_same_at_once() -> None:
+    """A minute of a processor is spent once; the second looks when the first is done."""
+    fcntl = pytest.importorskip("fcntl")
+    code = f"import assoc_hull\nprint('begun', flush=True)\n{program_engine._ALONE}\nprint('done')"
+    folder = os.open(Path(assoc_hull.__file__).parent, os.O_RDONLY)
+    try:
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as child:
+            assert child.stdout is not None
+            assert child.stdout.readline() == b"begun\n"
+            assert not select.select([child.stdout], [], [], 0.3)[0]
+            fcntl.flock(folder, fcntl.LOCK_UN)
+            assert child.stdout.read() == b"done\n"
+    finally:
+        os.close(folder)
 
 
 def test_the_command_tells(

@@ -77,6 +77,12 @@ def test_a_variant_that_is_none_is_a_row_with_its_reason(parent: ah.Hull, found:
     assert parent.history == ()
 
 
+def test_a_study_says_that_it_fairs_no_followers(small: ah.Hull) -> None:
+    """What `vary` takes and a study does not is refused with what does it."""
+    with pytest.raises(ah.errors.BadInputError, match=r"hull\.vary\(set=\.\.\., fair=True\)"):
+        small.study(set={"draught": [6.0, 6.1]}, fair=True)
+
+
 def test_the_change_is_nearly_the_least(small: ah.Hull) -> None:
     """Of one more free parameter than targets: `vary`, which seeks it exactly, changes the same."""
     asked = {"reach": {"volume": 2820.0}, "free": ["breadth", fuller()]}

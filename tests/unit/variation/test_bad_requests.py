@@ -173,7 +173,7 @@ FOLDS = {
     "a draught above the deck": ("draught", 60.0, "Z_z"),
     "a hull of no length": ("length", 10.0, "X_x"),
     "a bilge too large": ("bilge_radius", 6.0, "at x="),
-    "a parallel body of no length": ("parallel_body_start", 204.0, "X_x"),
+    "a parallel body of a tenth": ("parallel_body_start", 198.0, "X_x"),
     "a stem that leans back": ("stem_rake_deg", -79.0, " deg"),
     "stations that cross": ("fore_shift", 80.0, "X_x"),
 }
@@ -202,6 +202,9 @@ OUTSIDE = {
     "a flat bottom beyond the side": ("flat_of_bottom", 25.5, "leaves no bilge"),
     "a stem that lies down": ("stem_rake_deg", 85.0, "too steep"),
     "a bottom that falls": ("deadrise_deg", -20.0, "turns the bottom too far"),
+    "a parallel body of no length": ("parallel_body_start", 204.0, "less than 2 % of Lpp"),
+    "a parallel body that ends before it begins": ("parallel_body_end", 110.0, "less than 2 %"),
+    "a parallel body of 5 m": ("parallel_body_length", 5.0, "less than 2 % of Lpp"),
 }
 """Values from which no ship comes, and what the message says."""
 

@@ -148,19 +148,28 @@ def test_a_parallel_body_without_flats_is_cut(series60_70: ah.Hull) -> None:
 
 
 def test_a_hull_without_parallel_body_is_cut_where_its_waterlines_are_parallel(
-    dtc: ah.Hull, container: ah.Hull
+    container: ah.Hull,
 ) -> None:
     """At the largest section, which the refusal names; following it works."""
-    for hull, name, x in ((dtc, "ST 165.14", 165.14), (container, "ST 10", 112.5)):
-        with pytest.raises(BadInputError, match=f"give at={x}: there {name} stands"):
-            hull.jumboise(14.0)
-        found = hull.jumboise(14.0, at=x)
-        report = found.report
-        assert report.volume[1] - report.volume[0] == pytest.approx(14.0 * report.area, rel=1e-8)
-        assert all("detached" in str(each) for each in found.hull.check())
-        assert found.hull.verify() == ()
-        found.hull.undo()
-        assert found.hull.fingerprint == hull.fingerprint
+    with pytest.raises(BadInputError, match=r"give at=112\.5: there ST 10 stands"):
+        container.jumboise(14.0)
+    _cut(container, 112.5)
+
+
+def test_a_parallel_body_that_adoption_knows_no_nearer_is_cut(dtc: ah.Hull) -> None:
+    """The two sections in it are 6.6 mm apart."""
+    _cut(dtc, 165.14)
+
+
+def _cut(hull: ah.Hull, x: float) -> None:
+    """Insert 14 m: volume grows by the section, and undo brings the hull back."""
+    found = hull.jumboise(14.0, at=x)
+    report = found.report
+    assert report.volume[1] - report.volume[0] == pytest.approx(14.0 * report.area, rel=1e-8)
+    assert all("detached" in str(each) for each in found.hull.check())
+    assert found.hull.verify() == ()
+    found.hull.undo()
+    assert found.hull.fingerprint == hull.fingerprint
 
 
 @pytest.fixture

@@ -67,7 +67,7 @@ def edited(hull: Hull, point: int, step: float) -> bool:
     place, axes = hull.points[name], hull.points[name].free
     with suppress(AssocHullError):
         with hull.edit("a move") as edit:
-            edit.move(name, **{axis: getattr(place, axis) + step for axis in axes})
+            edit.move(name, lead=False, **{axis: getattr(place, axis) + step for axis in axes})
         return True
     return False
 

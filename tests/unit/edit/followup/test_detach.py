@@ -31,7 +31,7 @@ def moved(edit: Edit, hull: ah.Hull, name: str, **by: float) -> None:
     """Move a point of a section by some metres."""
     point = hull.points[name]
     to = {axis: getattr(point, axis) + by.get(axis, 0.0) for axis in point.free}
-    edit.move(point, **to)
+    edit.move(point, lead=False, **to)
 
 
 def off(hull: ah.Hull) -> set[str]:
@@ -48,7 +48,7 @@ def shape(hull: ah.Hull, line: str) -> list[bytes]:
 
 ACTS: dict[str, tuple[Act, set[str]]] = {
     "move": (lambda e, h: moved(e, h, "ST 35 @ adopted 9", y=0.03), {"ST 35"}),
-    "insert": (lambda e, h: e.insert("ST 35", (35.0, 7.995, 5.2)), {"ST 35"}),
+    "insert": (lambda e, h: e.insert("ST 35", (35.0, 7.995, 5.2), lead=False), {"ST 35"}),
     "delete": (lambda e, h: e.delete("ST 35 @ adopted 5"), {"ST 35"}),
     "pin": (lambda e, h: e.pin("ST 35 @ adopted 5"), {"ST 35"}),
     "kind": (lambda e, h: e.set_kind("ST 35 @ adopted 5", "knuckle"), {"ST 35"}),
@@ -113,7 +113,7 @@ def test_a_line_returns_to_its_definitions(hull: ah.Hull, name: str) -> None:
 def test_points_that_the_definitions_do_not_know_keep_a_line(hull: ah.Hull) -> None:
     """A placed one, a crossing that defines it: both are named."""
     with hull.edit("insert") as edit:
-        edit.insert("ST 35", (35.0, 7.995, 5.2))
+        edit.insert("ST 35", (35.0, 7.995, 5.2), lead=False)
     with pytest.raises(ah.errors.BadInputError, match="ST 35 @ placed 1 was placed there"):
         hull.apply("back", [{"op": "reattach", "line": "ST 35"}])
     with hull.edit("unpin") as edit:

@@ -92,7 +92,7 @@ def test_a_point_between_two_driven_ones_rides_by_a_linear_blend(driven: ah.Hull
     where = driven.points["ST 3 @ adopted 2"]
     old = where.y
     with driven.edit("move") as edit:
-        edit.move(where, y=old + 0.05, z=where.z)
+        edit.move(where, y=old + 0.05, z=where.z, lead=False)
     crossing = driven.points["WL 2.500 x ST 3"]
     moved = [p for p in riding if p.position.tobytes() != before[p.id].tobytes()]
     assert moved
@@ -102,7 +102,7 @@ def test_a_point_between_two_driven_ones_rides_by_a_linear_blend(driven: ah.Hull
         assert (each.position - before[each.id])[[0, 2]].tolist() == [0.0, 0.0]
     assert crossing.y == pytest.approx(old + 0.05, abs=1e-12)
     with driven.edit("back") as edit:
-        edit.move(where, y=old, z=where.z)
+        edit.move(where, y=old, z=where.z, lead=False)
     assert all(p.position.tobytes() == before[p.id].tobytes() for p in riding)
     driven.undo(2)
     assert driven.fingerprint == start
@@ -118,5 +118,5 @@ def test_a_placed_point_never_rides(driven: ah.Hull) -> None:
     before = np.array(point.position)
     where = driven.points["ST 3 @ adopted 2"]
     with driven.edit("move", gaps="report") as edit:
-        edit.move(where, y=where.y + 0.05, z=where.z)
+        edit.move(where, y=where.y + 0.05, z=where.z, lead=False)
     assert point.position.tolist() == before.tolist()

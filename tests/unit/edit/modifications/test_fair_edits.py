@@ -151,7 +151,8 @@ def test_a_preview_tells_what_the_edit_does(carrier: Hull) -> None:
     assert seen.report is not None
     assert edit.report is not None
     assert seen.report.notes == edit.report.notes
-    assert "answered fairly within" in edit.report.notes[-1]
+    assert "answered fairly within" in edit.report.notes[-2]
+    assert "a batten springs there by" in edit.report.notes[-1]
 
 
 def test_a_driven_crossing_is_pulled_by_its_driver(fresh_series60_70: Hull) -> None:

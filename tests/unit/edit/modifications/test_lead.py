@@ -350,6 +350,10 @@ def test_what_is_so_already_is_no_step(wigley: Hull) -> None:
     with wigley.edit("where it is") as edit:
         edit.lead("WL 2.5", [wigley.points["WL 2.5 x ST 6"].position])
     assert wigley.fingerprint == before
+    assert edit.report is not None
+    assert not edit.report.changed
+    assert "nothing was changed" in edit.report.notes[-1]
+    assert not wigley.history
     line = wigley.lines["WL 2.5"].curves[0]
     place = np.add(line.at(55.0), (0.0, 0.01, 0.0))
     with wigley.edit("once") as edit:
@@ -359,6 +363,37 @@ def test_what_is_so_already_is_no_step(wigley: Hull) -> None:
         assert edit.lead("WL 2.5", [place]) == ()
         edit.lead("WL 2.5", [(made, place)])
     assert wigley.fingerprint == once
+
+
+def test_a_batten_that_springs_farther_is_told_of(wigley: Hull) -> None:
+    """No sign of curvature changes, and yet the line is less fair by far: both residuals."""
+    place = np.add(wigley.lines["WL 2.5"].curves[0].at(55.0), (0.0, 0.02, 0.0))
+    with wigley.edit("lead") as edit:
+        edit.lead("WL 2.5", [place])
+    assert edit.report is not None
+    (told,) = (note for note in edit.report.notes if note.startswith("a batten springs"))
+    assert "0.8 mm at most before, by 12.7 mm now; it rose most on ST 11 at (55.000, " in told
+    assert told.endswith(": more than twice; spread it over more points, or ask for less")
+
+
+@pytest.mark.parametrize("act", ["lead", "reshape"])
+def test_numbers_of_numpy_are_told_as_plain_ones(wigley: Hull, act: str) -> None:
+    """A span is often a pair of an array's numbers."""
+    place = wigley.lines["WL 2.5"].curves[0].at(55.0)
+    span = np.float64(10.0), np.float64(40.5)
+    told = r"outside the span \(10\.0, 40\.5\)"
+    with pytest.raises(BadInputError, match=told), wigley.edit("outside") as edit:
+        getattr(edit, act)("WL 2.5", [place], span=span)
+
+
+def test_what_is_asked_plainly_beside_a_lead_is_no_gain_of_it(wigley: Hull) -> None:
+    """A deep dent far off makes sign changes of its own, which no note lays on the lead."""
+    place = np.add(wigley.lines["WL 2.5"].curves[0].at(75.0), (0.0, 0.005, 0.0))
+    with wigley.edit("both") as edit:
+        edit.pull("WL 5 x ST 5", -0.05)
+        edit.lead("WL 2.5", [place])
+    assert edit.report is not None
+    assert [note for note in edit.report.notes if "changes of the sign of curvature" in note] == []
 
 
 def test_an_adopted_point_becomes_placed_when_it_is_led(carrier: Hull) -> None:

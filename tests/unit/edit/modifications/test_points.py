@@ -194,7 +194,7 @@ def test_bad_moves(
     hull: ah.Hull, to: dict[str, float], error: type[ah.AssocHullError], word: str
 ) -> None:
     """The free coordinates are named, the number is told."""
-    assert word in refused(hull, lambda edit: edit.move(SHARED, **to), error)
+    assert word in refused(hull, lambda edit: edit.move(SHARED, lead=False, **to), error)
 
 
 @pytest.mark.parametrize(
@@ -260,7 +260,9 @@ def test_two_points_at_one_place(hull: ah.Hull) -> None:
 def test_a_fold_is_refused_with_place_and_number(hull: ah.Hull) -> None:
     """A point dragged past its neighbours."""
     point = insert(hull)
-    text = refused(hull, lambda edit: edit.move(point, x=point.x + 30.0, y=0.3), RefusedEditError)
+    text = refused(
+        hull, lambda edit: edit.move(point, x=point.x + 30.0, y=0.3, lead=False), RefusedEditError
+    )
     assert "folds back on itself at (" in text
     assert "cosine" in text
     assert "WL 3.343" in text or "waterlines:3.342" in text

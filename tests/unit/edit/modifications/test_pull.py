@@ -91,7 +91,7 @@ def test_a_pull_that_cannot_reach_is_refused_with_both_numbers() -> None:
     hull = fresh(4)
     point = hull.points["WL 2.305 x ST 3"]
     with hull.edit("hold") as edit:
-        edit.insert(hull.lines["ST 3"].curves[0], point.position)
+        edit.insert(hull.lines["ST 3"].curves[0], point.position, lead=False)
     message = refused(
         hull, lambda edit: edit.pull(point, 0.05, RADIUS), ah.errors.RefusedEditError, "report"
     )

@@ -45,7 +45,7 @@ def test_one_vector_for_several_points_gives_what_single_moves_give(
     assert seen.fingerprint == together
     assert hull.check() == ()
     assert hull.document.history[-1].script.edits == (
-        {"op": "move", "point": points, "by": list(OUT)},
+        {"op": "move", "point": points, "by": list(OUT), "lead": False},
     )
     hull.undo()
     assert hull.fingerprint == before

@@ -323,8 +323,8 @@ class TestPlaced:
     def hull_with_points() -> ah.Hull:
         hull = ah.examples.wigley()
         with hull.edit("place") as edit:
-            edit.insert("WL 2.5", (52.5, 3.2, 2.5))
-            edit.insert("ST 10", (50.0, 2.69, 2.0))
+            edit.insert("WL 2.5", (52.5, 3.2, 2.5), lead=False)
+            edit.insert("ST 10", (50.0, 2.69, 2.0), lead=False)
         return hull
 
     def test_in_a_plane_that_is_kept(self) -> None:

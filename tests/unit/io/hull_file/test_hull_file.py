@@ -300,7 +300,7 @@ def test_file_text_file_keeps_the_fingerprint(hull: ah.Hull, file: Path, tmp_pat
         edit.add_line("waterlines", 2.8, "extra")
         edit.remove_line("ST 3")
     with hull.edit("points") as edit:
-        edit.insert("WL 3.75", (20.0, 2.0, 3.75))
+        edit.insert("WL 3.75", (20.0, 2.0, 3.75), lead=False)
         edit.set_end("WL 3.75", "start", tangent=(1.0, 0.2, 0.0))
         edit.rename(POINT, "bilge")
     one, other = tmp_path / "one.hull.json", tmp_path / "other.hull.json"

@@ -31,6 +31,7 @@ from assoc_hull.variation.parameters.parameter_measures import (
     measure_all,
 )
 from tests.cases.test_box_with_bilges import BILGE, DEPTH, DRAUGHT, HALF, LENGTH, round_box
+from tests.conftest import Shipped
 from tests.taken_back import taken_back
 
 Map = Callable[[FloatArray], FloatArray]
@@ -336,20 +337,35 @@ def test_a_box_is_parallel_from_end_to_end(box: ah.Hull) -> None:
     assert found.absent["stem_rake_deg"] == f"no profile forward at z={DRAUGHT:.3f}"
 
 
+@pytest.mark.parametrize(
+    ("adoption", "ends"),
+    [(0.002, None), (0.005, None), (0.01, (101.25, 112.5))],
+    ids=["sections differ", "a buttock swells between them", "both within"],
+)
+def test_sections_are_equal_as_far_as_adoption_knows_them(
+    shipped: Shipped, adoption: float, ends: tuple[float, float] | None
+) -> None:
+    """Two are 3.1 mm apart, and a buttock between them 9.2 mm off."""
+    state = copy_state(shipped("container_ship_225m").state)
+    state.tolerances = attrs.evolve(state.tolerances, adoption=adoption)
+    found = measure_all(state, ["parallel_body_start", "parallel_body_end"])
+    assert (tuple(found.values()) or None) == ends
+
+
 def test_the_dtc_is_measured_at_its_own_length(dtc: ah.Hull) -> None:
     """A rounded hub has a height but no circle; with Lpp 355 m the bulb lies before FP.
 
-    Her two fullest sections are 6.6 mm apart: alike in area to 1e-4, but no parallel body.
+    On her mesh the body is parallel from x = 155 to 183 m, as far as facets go: the two stations in
+    it are its ends, though adoption has left them 6.6 mm apart.
     """
     state = copy_state(dtc.state)
     state.settings.particulars.data[0] = attrs.evolve(state.particulars, length=355.0)
     found = measure_all(state)
-    assert dict(found.absent) == {
-        "bossing_radius": "parent has no bossing circle",
-        "parallel_body_start": "parent has no parallel middle body",
-        "parallel_body_end": "parent has no parallel middle body",
-        "parallel_body_length": "parent has no parallel middle body",
-    }
+    assert dict(found.absent) == {"bossing_radius": "parent has no bossing circle"}
+    ends = found["parallel_body_start"], found["parallel_body_end"]
+    assert 154.0 < ends[0] < ends[1] < 184.0
+    assert found["parallel_body_length"] == ends[1] - ends[0]
+    assert "within 14.1 mm" in found.anchors["parallel_body_start"].how
     assert found["shaft_height"] == pytest.approx(5.0, abs=0.05)
     assert found["bulb_length"] == pytest.approx(11.07, abs=0.02)
     assert found["transom_height"] == pytest.approx(15.3, abs=0.01)

@@ -1,0 +1,120 @@
+"""An edit typed on the command line instead of in a file: a method of the edit, and its values.
+
+Words stand for the arguments of the method in their order, ``name=value`` for those with a name.
+A length may have a unit, numbers with commas are a place, places with semicolons are several.
+
+Examples
+--------
+>>> from assoc_hull.cli.typed_edits import typed_edit
+>>> typed_edit("pull", ["WL 0.5 x ST 16", "50mm", "radius=20,8"])
+{'op': 'pull', 'point': 'WL 0.5 x ST 16', 'd': 0.05, 'radius': [20.0, 8.0]}
+>>> typed_edit("lead", ["BTK 1", "2.2,1,15.2; 6,1,13"])
+{'op': 'lead', 'line': 'BTK 1', 'points': [[2.2, 1.0, 15.2], [6.0, 1.0, 13.0]]}
+"""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+import math
+import re
+from collections.abc import Mapping, Sequence
+
+from assoc_hull.cli.problems import UsageError
+from assoc_hull.edit.recording import WRITTEN_OUT
+from assoc_hull.edit.script import operations
+
+__all__ = ["is_operation", "typed_edit", "unknown_edit"]
+
+_NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(mm|cm|m|)", re.IGNORECASE)
+_POWERS = {"mm": -3, "cm": -2}
+_WORDS = {"true": True, "yes": True, "false": False, "no": False, "none": None}
+_NAMED = re.compile(r"(\w+)=(.*)", re.DOTALL)
+
+
+def is_operation(word: str) -> bool:
+    """Tell whether a word is a modification that can be typed."""
+    return word in operations()
+
+
+def unknown_edit(word: str) -> UsageError:
+    """Say what may have been meant by a word that is neither a modification nor a file."""
+    near = [repr(each) for each in difflib.get_close_matches(word, operations(), 2, 0.6)]
+    ask = f"did you mean {' or '.join(near)}? Else" if near else "it is neither;"
+    return UsageError(
+        f"there is no modification {word[:60]!r}; {ask} give a .json file, or such as: edit HULL "
+        "pull POINT 20mm"
+    )
+
+
+def typed_edit(operation: str, words: Sequence[str]) -> Mapping[str, object]:
+    """Give what was typed as a modification of a script.
+
+    Parameters
+    ----------
+    operation : str
+        A method of the edit.
+    words : sequence of str
+        Its values, in the order of its arguments, or ``name=value``.
+
+    Raises
+    ------
+    UsageError
+        More values than arguments, an argument twice or unknown.
+    """
+    takes = operations()[operation].parameters
+    order = [name for name, each in takes.items() if each.kind is not each.VAR_KEYWORD]
+    free = any(each.kind is each.VAR_KEYWORD for each in takes.values())
+    given, place = dict[str, object](), 0
+    for word in words:
+        named = _NAMED.fullmatch(word)
+        if named and (named[1] in order or free):
+            name, text = named[1], named[2]
+        elif named and " x " not in word:
+            raise UsageError(f"{operation} takes no {named[1]!r}: it takes {', '.join(order)}")
+        else:
+            place_of = [each for each in order if _by_place(takes[each])]
+            if place == len(place_of):
+                raise UsageError(
+                    f"{operation} takes {len(place_of)} values without a name, and {word!r} is one "
+                    f"more; write name={word}, with one of {', '.join(order)}"
+                )
+            name, text, place = place_of[place], word, place + 1
+        if name in given:
+            raise UsageError(f"{name!r} of {operation} is given twice")
+        given[name] = _several(text) if name == "points" else _value(text)
+    # What a file of an older version leaves out means another thing than what is typed now.
+    always = {name: takes[name].default for name in WRITTEN_OUT if name in takes}
+    return {"op": operation, **always, **given}
+
+
+def _by_place(each: inspect.Parameter) -> bool:
+    return each.kind in (each.POSITIONAL_ONLY, each.POSITIONAL_OR_KEYWORD)
+
+
+def _several(text: str) -> list[object]:
+    """Read points: places, or names."""
+    return [_value(part.strip()) for part in text.split(";") if part.strip()]
+
+
+def _value(text: str) -> object:
+    """Read a number with a unit, a place, a word that stands for something, or a name."""
+    if ";" in text:
+        return _several(text)
+    if "," in text:
+        parts = [_number(part.strip()) for part in text.split(",")]
+        if all(part is not None for part in parts):
+            return parts
+    found = _number(text)
+    return _WORDS.get(text.lower(), text) if found is None else found
+
+
+def _number(text: str) -> float | None:
+    """Read a length in m, or a plain number; None if it is none."""
+    match = _NUMBER.fullmatch(text)
+    if match is None:
+        return None
+    # Through its decimal digits, so that 50mm is the number 0.05.
+    mantissa, _, power = match[1].lower().partition("e")
+    found = float(f"{mantissa}e{int(power or 0) + _POWERS.get(match[2].lower(), 0)}")
+    return found if math.isfinite(found) else None

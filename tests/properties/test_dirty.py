@@ -1,0 +1,56 @@
+"""What is dirty inside an edit holds all that the edit lofts, and says because of what."""
+
+from __future__ import annotations
+
+import os
+
+import attrs
+from hypothesis import given, settings
+
+import assoc_hull as ah
+from assoc_hull.edit.report import EditReport
+from assoc_hull.errors import AssocHullError
+from tests.net_strategies import SHAPES, STRUCTURE, Task, hulls, perform, tasks
+
+LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
+COUNT = 250 if LONG else 15
+"""Examples, each of up to four edits."""
+
+
+@attrs.frozen
+class Seen:
+    """What an edit told inside, by keys of curves, and its report."""
+
+    dirty: set[str]
+    perhaps: set[str]
+    report: EditReport
+
+
+def carried_out(hull: ah.Hull, task: Task) -> Seen | None:
+    """Carry an edit out, and look before its end; None if it was refused."""
+    try:
+        with hull.edit("task", task.policy, task.gaps) as edit:
+            for act in task.acts:
+                perform(hull, edit, act)
+            dirty = hull.dirty
+            curves, perhaps = ({each.id for each in some} for some in (dirty.curves, dirty.perhaps))
+            assert all(str(cause).startswith("because of ") for cause in dirty.values())
+    except AssocHullError:
+        return None
+    assert not hull.dirty
+    assert edit.report is not None
+    return Seen(curves, perhaps, edit.report)
+
+
+@settings(max_examples=COUNT)
+@given(hulls(), tasks((*SHAPES, *STRUCTURE), largest=0.05))
+def test_what_is_lofted_was_dirty(hull: ah.Hull, edits: list[Task]) -> None:
+    """But for what mends a gap or bears a crossing: that was told as perhaps dirty."""
+    for task in edits:
+        seen = carried_out(hull, task)
+        if seen is None:
+            continue
+        lofted = set(seen.report.relofted)
+        assert lofted <= seen.dirty | seen.perhaps
+        if not (seen.report.mended or seen.report.born or seen.report.gone):
+            assert lofted <= seen.dirty
