@@ -192,12 +192,13 @@ class Vary:
     apply: bool = attrs.field(default=False, validator=_flag)
 
 
-Message = Hello | Sign | Begin | To | Commit | Cancel | Apply | Undo | Redo | Check | Parameters | Vary
+Message = (
+    Hello | Sign | Begin | To | Commit | Cancel | Apply | Undo | Redo | Check | Parameters | Vary
+)
 
 _KINDS: dict[str, type[Message]] = {
     kind.__name__.lower(): kind
-    for kind in (Hello, Sign, Begin, To, Commit, Cancel, Apply, Undo, Redo, Check,
-                 Parameters, Vary)
+    for kind in (Hello, Sign, Begin, To, Commit, Cancel, Apply, Undo, Redo, Check, Parameters, Vary)
 }
 
 

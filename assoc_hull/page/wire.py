@@ -29,7 +29,7 @@ _WHERE = "in a frame of the page"
 
 
 class FrameKind(IntEnum):
-    """What a frame tells: all that is published, what a drag would change, what an edit changed, a variant."""
+    """All that is published, what a drag would change, what an edit changed, a variant."""
 
     NET = 1
     LIVE = 2

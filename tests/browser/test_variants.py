@@ -19,7 +19,8 @@ def test_a_variant_is_a_ghost_until_it_is_applied(open_page: Open, hull: ah.Hull
     words.get_by_text("Nothing is changed yet").wait_for()
     assert page.evaluate("document.querySelector('.page').fairing.store.ghost.curves.size") > 20
     assert hull.fingerprint == before
-    field.press("Escape")
+    page.evaluate("document.querySelector('.page').fairing.views.body.upper.focus()")
+    page.keyboard.press("Escape")
     assert page.evaluate("document.querySelector('.page').fairing.store.ghost === null")
     field.fill("-3")
     box.get_by_text("Apply").click()

@@ -61,7 +61,8 @@ export class Keys {
     } else if (store.refusal || store.problem) {
       store.refusal = store.problem = null;
       store.changed("overlay", "panel");
-    } else if (field) page.leaveField(field);
+    } else if (store.ghost) page.panel.vary.drop();
+    else if (field) page.leaveField(field);
     else if (store.maximised) page.maximise(/** @type {import("./view.js").Kind} */ (store.maximised));
     else store.select(null, null);
   }
