@@ -163,7 +163,9 @@ function drawGhost(view, g, ink, frame) {
   g.strokeStyle = ink.live;
   g.lineWidth = view.kind === "wire" ? 0.7 : 1;
   g.setLineDash([5, 3]);
+  g.globalAlpha = view.kind === "wire" ? 0.4 : 0.8;
   g.stroke();
+  g.globalAlpha = 1;
   g.setLineDash([]);
 }
 

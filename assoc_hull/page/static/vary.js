@@ -14,8 +14,11 @@ function button(words, run) {
   return found;
 }
 
-/** @param {number | null} value @param {string} open */
-const bound = (value, open) => value === null ? open : value.toFixed(3);
+/** @param {Parameter} found @param {string} unit */
+function spanWords({low, high}, unit) {
+  const words = [low === null ? "" : `from ${low.toFixed(3)}${unit}`, high === null ? "" : `up to ${high.toFixed(3)}${unit}`];
+  return words.filter(Boolean).join(" ") || "no limits";
+}
 
 export class Vary {
   /** @param {Page} page @param {HTMLElement} box */
@@ -39,6 +42,7 @@ export class Vary {
     this.words = document.createElement("p");
     this.words.setAttribute("role", "status");
     this.form = document.createElement("div");
+    this.form.className = "vary";
     this.form.hidden = true;
     this.form.append(this.choice, this.about, this.field, button("Preview", () => this.#ask(false)), button("Apply", () => this.#ask(true)), button("Remove ghost", () => this.drop()));
     box.append(button("List the parameters", () => this.list()), this.form, this.words);
@@ -56,7 +60,7 @@ export class Vary {
     const found = this.#chosen();
     if (!found || found.value === null) return;
     const unit = found.unit === "-" ? "" : ` ${found.unit}`;
-    this.about.textContent = `${found.meaning}: ${found.value.toFixed(3)}${unit} now, from ${bound(found.low, "any")} to ${bound(found.high, "any")}${unit}`;
+    this.about.textContent = `${found.meaning}: ${found.value.toFixed(3)}${unit} now; ${spanWords(found, unit)}`;
     this.field.value = found.value.toFixed(3);
     this.field.setAttribute("aria-label", `wanted ${found.name}${unit && `,${unit}`}`);
     this.words.textContent = "";
