@@ -272,12 +272,12 @@ class Maker:
                 self.journal.set(table.stands_for, [old], [title])
             found.append(old)
         rows, put = np.array(found, np.int64), self.journal.put
-        curve = table.curve[crossings, sides]
+        giver = table.curve[crossings, sides]
         none = np.full(len(rows), -1)
         put(table.alive, rows, True)
         put(table.sort, rows, int(Sort.ADOPTED))
-        put(table.curve, rows, np.column_stack([curve, none]))
-        put(table.reader, rows, np.column_stack([curve, none]))
+        put(table.curve, rows, np.column_stack([giver, none]))
+        put(table.reader, rows, np.column_stack([giver, none]))
         put(table.kind, rows, np.column_stack([table.kind[crossings, sides], none * 0]))
         direction = np.zeros((len(rows), 2, 3))
         direction[:, 0] = table.direction[crossings, sides]
