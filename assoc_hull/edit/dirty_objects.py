@@ -8,7 +8,7 @@ Examples
 ...     edit.move("WL 2.5 x ST 7", y=2.95)
 ...     print(hull.dirty)
 ...     print(hull["ST 7"].dirty)
-dirty because of the move of WL 2.5 x ST 7: 2 curves, 1 point
+dirty because of the move of WL 2.5 x ST 7: 3 curves, 2 points
 because of the move of WL 2.5 x ST 7, through WL 2.5 x ST 7
 >>> len(hull.dirty)
 0
