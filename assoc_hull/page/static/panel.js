@@ -5,6 +5,7 @@ import {arcLength} from "./hermite.js";
 import {farthest} from "./paint.js";
 import {PointTable, Problems} from "./lists.js";
 import {Vary} from "./vary.js";
+import {millimetres, signed} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
 
@@ -12,10 +13,6 @@ const AXES = ["x", "y", "z"];
 const WAYS = ["forward of AP", "from the centre plane", "above the base line"];
 const PLANES = /** @type {Record<string, [number, number]>} */ ({sections: [1, 2], frames: [1, 2], waterlines: [0, 1], diagonals: [0, 1]});
 
-/** @param {number} metres */
-export const millimetres = (metres) => `${metres < 0 ? "−" : ""}${(1e3 * Math.abs(metres)).toFixed(1)} mm`;
-/** @param {number} value @param {number} digits @param {string} unit */
-export const signed = (value, digits, unit) => `${value < 0 ? "−" : "+"}${Math.abs(value).toFixed(digits)} ${unit}`;
 
 export class Panel {
   /** @param {Page} page @param {HTMLElement} element */

@@ -1,6 +1,6 @@
 // What the live regions say: at most once a second while something is dragged; refusals at once.
 
-import {signed} from "./panel.js";
+import {signed} from "./units.js";
 
 /** @typedef {import("./store.js").Store} Store */
 

@@ -1,6 +1,6 @@
 // Named parameters of the hull: a wanted value is shown as a ghost, then made as one edit.
 
-import {millimetres, signed} from "./panel.js";
+import {millimetres, signed} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {{name: string, unit: string, meaning: string, value: number | null, low: number | null, high: number | null, reason: string | null}} Parameter */

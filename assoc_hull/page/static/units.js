@@ -1,0 +1,10 @@
+// Numbers with their units, in words.
+
+/** @param {number} metres */
+export const millimetres = (metres) => `${metres < 0 ? "−" : ""}${(1e3 * Math.abs(metres)).toFixed(1)} mm`;
+/** @param {number} value @param {number} digits @param {string} unit */
+export const signed = (value, digits, unit) => {
+  const size = Math.abs(value).toFixed(digits);
+  const sign = Number(size) === 0 ? "±" : value < 0 ? "−" : "+";
+  return `${sign}${size} ${unit}`;
+};
