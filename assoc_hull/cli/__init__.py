@@ -21,7 +21,7 @@ from assoc_hull.errors import NotSoundError
 
 __all__ = ["main"]
 
-_LENGTH = re.compile(r"-(\d+\.?\d*|\.\d+)(mm|cm)")
+_NEGATIVE = re.compile(r"-\.?\d")
 
 _BAD, _NOT_SOUND, _STOPPED, _NO_READER = 2, 3, 130, 141
 
@@ -66,6 +66,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(argv: Sequence[str] | None) -> int:
     try:
         words = _with_axes(sys.argv[1:] if argv is None else argv)
+        if words[:1] == ["help"]:
+            words = [*words[1:2], "--help"]
         arguments = make_parser(words).parse_args(words)
     except SystemExit as done:  # --help and --version
         return int(done.code or 0)
@@ -76,13 +78,11 @@ def _run(argv: Sequence[str] | None) -> int:
 
 
 def _with_axes(words: Sequence[str]) -> list[str]:
-    """Keep what begins with a minus from being taken for an option: axes, lengths with a unit."""
+    """Keep what begins with a minus from being taken for an option: axes, values of edits."""
     found: list[str] = []
     for word in words:
-        if _LENGTH.fullmatch(word):
-            number, unit = word[:-2], word[-2:]
-            # As argparse knows a negative number.
-            found.append(f"{float(number) * (1e-3 if unit == 'mm' else 1e-2):.9f}")
+        if words[0] == "edit" and _NEGATIVE.match(word):
+            found.append(f" {word}")  # what has a blank is no option to argparse
         elif found[-1:] == ["--axes"] and word[:2].lower() in ("-x", "-y", "-z"):
             found[-1] = f"--axes={word}"
         else:

@@ -35,10 +35,16 @@ usage; 3 an imported hull is not sound
 """
 
 
+_OWN = ("-h", "--help", "--version")
+"""Options of the program itself."""
+
+
 class _Parser(argparse.ArgumentParser):
     """Raises where argparse would print several lines and leave."""
 
     def error(self, message: str) -> NoReturn:
+        if message.startswith("unrecognized arguments"):
+            message += "; options stand behind all values"
         raise UsageError(f"{message}, in {self.prog}; see: {self.prog} --help")
 
 
@@ -98,7 +104,10 @@ def _chosen(words: Sequence[str] | None) -> list[Command]:
     name = words[0] if words else ""
     if name in COMMANDS:
         return [COMMANDS[name]]
+    if words and (not name or (name.startswith("-") and name not in _OWN)):
+        raise UsageError(f"the first word is {name!r}; the command comes first, options behind it")
     if name and not name.startswith("-"):
+        name = name.lower()
         near = [SYNONYMS[name]] if name in SYNONYMS else []
         near += difflib.get_close_matches(name, COMMANDS, 3, 0.6)
         near += [each for each in COMMANDS if each.startswith(name)]

@@ -245,7 +245,7 @@ def add_edit(commands: Commands) -> None:
     parser.add_argument(
         "-o", "--out", metavar="OUT", type=Path, help="where to write the hull (default: HULL)"
     )
-    parser.add_argument("--name", help="name of the edit (default: that of the file)")
+    parser.add_argument("--name", help="its name (default: that of the file, or what is typed)")
     parser.add_argument(
         "--why", metavar="OBJECT", action="append", default=[],
         help="tell why this object changed; may be given more than once",
@@ -264,7 +264,7 @@ def _edit(arguments: argparse.Namespace) -> int:
     typed = str(arguments.edits)
     if is_operation(typed) and not arguments.edits.exists():
         changes: Changes = [typed_edit(typed, arguments.values)]
-        name = arguments.name or " ".join([typed, *arguments.values[:1]])
+        name = arguments.name or " ".join([typed, *map(str.strip, arguments.values)])[:80]
     elif arguments.values or not (arguments.edits.suffix or arguments.edits.exists()):
         raise unknown_edit(typed)
     else:

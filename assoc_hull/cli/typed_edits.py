@@ -29,6 +29,9 @@ __all__ = ["is_operation", "typed_edit", "unknown_edit"]
 _NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(mm|cm|m|)", re.IGNORECASE)
 _POWERS = {"mm": -3, "cm": -2}
 _WORDS = {"true": True, "yes": True, "false": False, "no": False, "none": None}
+_IN_FILES = ("rule",)
+"""Modifications whose values are nested too deeply to be typed."""
+
 _NAMED = re.compile(r"(\w+)=(.*)", re.DOTALL)
 
 
@@ -39,11 +42,11 @@ def is_operation(word: str) -> bool:
 
 def unknown_edit(word: str) -> UsageError:
     """Say what may have been meant by a word that is neither a modification nor a file."""
-    near = [repr(each) for each in difflib.get_close_matches(word, operations(), 2, 0.6)]
-    ask = f"did you mean {' or '.join(near)}? Else" if near else "it is neither;"
+    near = difflib.get_close_matches(word.lower(), operations(), 2, 0.6)
+    ask = f"; did you mean {' or '.join(map(repr, near))}?" if near else ";"
     return UsageError(
-        f"there is no modification {word[:60]!r}; {ask} give a .json file, or such as: edit HULL "
-        "pull POINT 20mm"
+        f"there is no modification {word[:60]!r}{ask} write behind the hull a .json file, or one "
+        f"of {', '.join(operations())}"
     )
 
 
@@ -60,47 +63,70 @@ def typed_edit(operation: str, words: Sequence[str]) -> Mapping[str, object]:
     Raises
     ------
     UsageError
-        More values than arguments, an argument twice or unknown.
+        More values than arguments, too few, an argument twice or unknown; it says what is taken.
     """
-    takes = operations()[operation].parameters
+    if operation in _IN_FILES:
+        raise UsageError(f"what {operation} takes cannot be typed; give it in a .json file")
+    signature = operations()[operation]
+    takes = signature.parameters
+    usage = f"{operation} takes {_usage(signature)}"
     order = [name for name, each in takes.items() if each.kind is not each.VAR_KEYWORD]
     free = any(each.kind is each.VAR_KEYWORD for each in takes.values())
-    given, place = dict[str, object](), 0
-    for word in words:
+    left = [name for name in order if takes[name].kind is not takes[name].KEYWORD_ONLY]
+    given = dict[str, object]()
+    for typed in words:
+        word = typed.strip()
         named = _NAMED.fullmatch(word)
         if named and (named[1] in order or free):
             name, text = named[1], named[2]
         elif named and " x " not in word:
-            raise UsageError(f"{operation} takes no {named[1]!r}: it takes {', '.join(order)}")
+            raise UsageError(f"{operation} takes no {named[1]!r}: {usage}")
+        elif left:
+            name, text = left.pop(0), word
         else:
-            place_of = [each for each in order if _by_place(takes[each])]
-            if place == len(place_of):
-                raise UsageError(
-                    f"{operation} takes {len(place_of)} values without a name, and {word!r} is one "
-                    f"more; write name={word}, with one of {', '.join(order)}"
-                )
-            name, text, place = place_of[place], word, place + 1
+            raise UsageError(f"{word!r} is one value too many: {usage}")
         if name in given:
-            raise UsageError(f"{name!r} of {operation} is given twice")
-        given[name] = _several(text) if name == "points" else _value(text)
+            raise UsageError(f"{name!r} of {operation} is given twice: {usage}")
+        given[name] = _read(text, takes.get(name))
+    try:
+        signature.bind(**given)
+    except TypeError as error:
+        raise UsageError(f"{operation}: {error}: {usage}") from None
     # What a file of an older version leaves out means another thing than what is typed now.
     always = {name: takes[name].default for name in WRITTEN_OUT if name in takes}
     return {"op": operation, **always, **given}
 
 
-def _by_place(each: inspect.Parameter) -> bool:
-    return each.kind in (each.POSITIONAL_ONLY, each.POSITIONAL_OR_KEYWORD)
+def _usage(signature: inspect.Signature) -> str:
+    """Write the arguments as they are typed."""
+    parts = list[str]()
+    for name, each in signature.parameters.items():
+        if each.kind is each.VAR_KEYWORD:
+            parts.append("[NAME=VALUE ...]")
+        elif each.kind is each.KEYWORD_ONLY:
+            parts.append(f"[{name}=]")
+        else:
+            parts.append(name.upper() if each.default is each.empty else f"[{name.upper()}]")
+    return " ".join(parts)
 
 
-def _several(text: str) -> list[object]:
-    """Read points: places, or names."""
-    return [_value(part.strip()) for part in text.split(";") if part.strip()]
+def _read(text: str, into: inspect.Parameter | None) -> object:
+    """Read a value as its argument wants it: names stay as they are typed."""
+    kind = "float" if into is None else str(into.annotation)
+    plain = not any(word in kind for word in ("float", "ArrayLike", "bool"))
+    several = into is not None and into.name == "points"
+    if several or kind.startswith("Sequence[") or ("Sequence[" in kind and ";" in text):
+        items = [part.strip() for part in text.split(";") if part.strip()]
+        return items if plain else [_value(item) for item in items]
+    if plain:
+        return None if "None" in kind and into and into.name != "name" and text == "none" else text
+    return _value(text)
 
 
 def _value(text: str) -> object:
     """Read a number with a unit, a place, a word that stands for something, or a name."""
     if ";" in text:
-        return _several(text)
+        return [_value(part.strip()) for part in text.split(";") if part.strip()]
     if "," in text:
         parts = [_number(part.strip()) for part in text.split(",")]
         if all(part is not None for part in parts):

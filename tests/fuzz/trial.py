@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import functools
 import gc
@@ -10,7 +11,7 @@ import json
 import re
 import time
 import traceback
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from unittest import mock
 
@@ -33,7 +34,12 @@ MASKS = ("inside the program", "these values cannot be used (", "Traceback")
 LONGEST = 2000
 """So many letters may a message have: it is to be read."""
 
-_parser = functools.cache(make_parser)
+_all_commands = functools.cache(make_parser)
+
+
+def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
+    """Give the parser of all commands, made once."""
+    return _all_commands()
 
 
 @attrs.frozen

@@ -54,17 +54,20 @@ def test_what_is_typed_gives_the_hull_that_a_file_gives(
     assert main(["edit", str(file), str(script), "-o", str(other)]) == 0
     found = ah.open(one)
     assert found.fingerprint == ah.open(other).fingerprint != ah.open(file).fingerprint
-    assert found.history[-1].name == f"{typed[0]} {typed[1]}"
+    assert found.history[-1].name == " ".join(typed)
 
 
 @pytest.mark.parametrize(
     ("typed", "told"),
     [
         (["pul", "WL 2.5 x ST 5", "1mm"], "there is no modification 'pul'; did you mean 'pull'?"),
-        (["pull", "WL 2.5 x ST 5", "1mm", "depth=3"], "pull takes no 'depth': it takes point, d,"),
-        (["move", "WL 2.5 x ST 5", "2.4"], "'2.4' is one more; write name=2.4, with one of"),
+        (["pull", "WL 2.5 x ST 5", "1mm", "depth=3"], "pull takes no 'depth': pull takes POINT D"),
+        (["move", "WL 2.5 x ST 5", "2.4"], "'2.4' is one value too many: move takes POINT [x=]"),
+        (["lead", "WL 2.5"], "lead takes LINE POINTS [SPAN]"),
+        (["rule", "sections", "waterlines", "x"], "cannot be typed; give it in a .json file"),
         (["pull", "WL 2.5 x ST 5", "1mm", "d=2mm"], "'d' of pull is given twice"),
-        (["pull"], "missing a required argument: 'point'"),
+        (["pull"], "missing a required argument: 'point': pull takes POINT D [RADIUS]"),
+        (["pull", "--name", "x", "WL 2.5 x ST 5", "1mm"], "options stand behind all values"),
         (["pull", "WL 2.5 x ST 5", "far"], "(pull, modification 1)"),
     ],
 )
@@ -106,6 +109,43 @@ def test_a_typed_point_beside_its_line_leads_as_in_python(
 
 
 def test_words_that_are_no_numbers_are_names() -> None:
-    """A name with commas, or an equals sign, is taken as it stands."""
+    """A name with commas, an equals sign, or digits is taken as it stands."""
+    assert typed_edit("add_line", ["waterlines", "4.2", "7"])["name"] == "7"
+    assert typed_edit("add_line", ["waterlines", "4.2", "none"])["name"] == "none"
+    assert typed_edit("group", ["mine", "WL 0.5"])["lines"] == ["WL 0.5"]
+    assert typed_edit("fair", ["WL 0.5", "hold=volume;lcb"])["hold"] == ["volume", "lcb"]
     assert typed_edit("rename", ["WL 2.5", "a, b"])["name"] == "a, b"
     assert typed_edit("delete", ["a=b x c"]) == {"op": "delete", "point": "a=b x c"}
+
+
+def test_a_place_that_begins_with_a_minus_is_a_value(
+    file: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Also one abaft of the after perpendicular, or with an exponent."""
+    assert main(["edit", str(file), "lead", "WL 2.5", "-2,0.5,2.5"]) == 2
+    assert "unrecognized" not in capsys.readouterr().err
+    assert main(["edit", str(file), "pull", "WL 2.5 x ST 5", "-1e-2", "20,8"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--json", "info"], "the command comes first, options behind it"),
+        ([""], "the command comes first"),
+        (["EDIT", "ship.hull"], "did you mean 'edit'"),
+    ],
+)
+def test_what_stands_before_the_command_is_told(
+    words: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """And a command in capitals."""
+    assert main(words) == 2
+    assert told in capsys.readouterr().err
+
+
+def test_help_is_asked_for_as_a_command_too(capsys: pytest.CaptureFixture[str]) -> None:
+    """Of the program, and of one command."""
+    assert main(["help"]) == 0
+    assert "hydrostatics" in capsys.readouterr().out
+    assert main(["help", "undo"]) == 0
+    assert "assoc-hull undo" in capsys.readouterr().out
