@@ -57,7 +57,10 @@ class Rerun:
             apply_change(self.state, self.change, forward=forward)
         except (ValueError, TypeError, LookupError, ArithmeticError, AttributeError) as error:
             what = f"the change of a step does not fit the hull ({type(error).__name__}: {error})"
-            remedy = "take the hull from a copy; it is as it was"
+            remedy = (
+                "it is as it was; take it from another copy, or, if it is a copy, make it again "
+                "while nobody edits, or by hull.save(other)"
+            )
             raise DamagedFileError(what, "in the history", remedy) from error
 
 
