@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 
 import assoc_hull as ah
 from assoc_hull.edit.modifications import points as pinned
@@ -16,6 +17,7 @@ from assoc_hull.errors import (
 )
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
+from assoc_hull.model.objects import Point
 from tests.conftest import Shipped
 
 _NOTE = "between points that stay: the line bends there and the hull does not follow"
@@ -150,7 +152,10 @@ def test_inserts_and_moves_of_one_edit_are_one_lead_to_the_bit(shipped: Shipped)
         places = [_beside(hull, 0.01), np.add(placed.position, (0.0, 0.01, 0.0))]
         with hull.edit(way) as edit:
             if way == "one lead":
-                edit.lead("WL 2.5", [places[0], (placed, places[1])])
+                asked: list[ArrayLike | tuple[Point | str, ArrayLike]] = [
+                    places[0], (placed, places[1]),
+                ]  # fmt: skip
+                edit.lead("WL 2.5", asked)
             elif way == "inserts":
                 edit.insert("WL 2.5", places[0])
                 edit.move(placed, by=(0.0, 0.01, 0.0))
