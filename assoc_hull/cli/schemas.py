@@ -106,9 +106,9 @@ def _schema_of(document: str) -> dict[str, Any]:
 
         return plates_schema()
     if document == "hull-surface":
-        from assoc_hull.io.surfaces.hull_surface import net_surface_schema
+        from assoc_hull.io.surfaces.hull_surface import fitted_surface_schema
 
-        return net_surface_schema()
+        return fitted_surface_schema()
     if document == "hull-plates":
         from assoc_hull.io.tables.hull_plates import hull_plates_schema
 

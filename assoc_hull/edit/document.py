@@ -36,9 +36,9 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.network import distinct
 from assoc_hull.model.change import change_of
 from assoc_hull.model.index import Index, build_index, index_columns
-from assoc_hull.model.tables import HullState, copy_into, copy_state
+from assoc_hull.model.tables import HasState, HullState, copy_into, copy_state
 
-__all__ = ["Changed", "Document", "Keeper", "Label"]
+__all__ = ["Changed", "Document", "HasDocument", "Keeper", "Label"]
 
 _HELD = 16
 """So many steps are held in full where a keeper has them all."""
@@ -698,3 +698,12 @@ def _forget(revised: _Revisions) -> None:
 def _now() -> str:
     """Give the time for the record; nothing is computed from it."""
     return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+class HasDocument(HasState, Protocol):
+    """A hull, as far as a function asks of it: tables, and the history they belong to."""
+
+    @property
+    def document(self) -> Document:
+        """Tables with their history."""
+        ...

@@ -95,7 +95,7 @@ if TYPE_CHECKING:
     from assoc_hull.model.form_definition import FormDefinition
     from assoc_hull.model.objects import FeatureHandle
     from assoc_hull.model.tables import HasState
-    from assoc_hull.surface.blocks.net_surface import NetSurface
+    from assoc_hull.surface.blocks.fitted_surface import FittedSurface
     from assoc_hull.surface.cells.closed_mesh import ClosedMesh
     from assoc_hull.surface.plating.hull_seams import HullSeams
     from assoc_hull.variation.comparing.comparison import HullComparison
@@ -2432,7 +2432,7 @@ features
         self,
         *,
         leave_out: Sequence[str] = (),
-        previous: NetSurface | None = None,
+        previous: FittedSurface | None = None,
         smoothing: float | None = None,
         tolerance: float | None = None,
         cutoff: float = 1e-7,
@@ -2544,7 +2544,7 @@ features
         sagitta_length: float | None = None,
         share: float = 0.95,
         suggestions: Mapping[str, str] | None = None,
-        others: Sequence[NetSurface] | None = None,
+        others: Sequence[FittedSurface] | None = None,
         previous: HullPlates | None = None,
     ) -> HullPlates:
         """Tell of each plate of the hull how it is curved, and how sure that is.

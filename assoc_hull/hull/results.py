@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from functools import wraps
-from typing import TYPE_CHECKING, Any, Protocol, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import attrs
 
@@ -22,7 +22,7 @@ from assoc_hull.arguments import (
     positive,
 )
 from assoc_hull.display import ShownAsText
-from assoc_hull.edit.document import Document
+from assoc_hull.edit.document import HasDocument
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
@@ -34,7 +34,12 @@ from assoc_hull.model.objects import Curve, Group, Line
 from assoc_hull.model.tables import HasState, state_of
 from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options, length_of
-from assoc_hull.surface.blocks.net_surface import NetSurface, ResidualTable, document_of, text_of
+from assoc_hull.surface.blocks.fitted_surface import (
+    FittedSurface,
+    ResidualTable,
+    document_of,
+    text_of,
+)
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh, mesh_of_net
 from assoc_hull.surface.plating.hull_plates import HullPlateTable, hull_plates
 from assoc_hull.surface.plating.hull_seams import HullSeams
@@ -59,15 +64,6 @@ __all__ = [
 
 _FINEST, _COARSEST = 1e-6, 1.0
 """m: finer is the rounding of coordinates, coarser are no lines of a ship."""
-
-
-class HasDocument(HasState, Protocol):
-    """A hull, as far as these functions know it: tables, and the history they belong to."""
-
-    @property
-    def document(self) -> Document:
-        """Tables with their history."""
-        ...
 
 
 @attrs.frozen(eq=False)
@@ -165,13 +161,13 @@ Surfaces = SplineSurface | Sequence[SplineSurface] | FloatArray
 
 @overload
 def plates(
-    surfaces: HasState | NetSurface | Sequence[SplineSurface], seams: HullSeams, **options: Any
+    surfaces: HasState | FittedSurface | Sequence[SplineSurface], seams: HullSeams, **options: Any
 ) -> HullPlates: ...
 
 
 @overload
 def plates(
-    surfaces: Surfaces | NetSurface,
+    surfaces: Surfaces | FittedSurface,
     seams: Seams | Sequence[Seams | None] | None = None,
     *args: Any,
     **options: Any,
@@ -183,7 +179,7 @@ def plates(surfaces: Any, seams: Any = None, *args: Any, **options: Any) -> Plat
     """Find plates of surfaces, or of a hull; see `find_plates` and `plates_of_hull`."""
     if isinstance(seams, HullSeams):
         return plates_of_hull(surfaces, seams, *args, **options)
-    given = surfaces.patches if isinstance(surfaces, NetSurface) else surfaces
+    given = surfaces.patches if isinstance(surfaces, FittedSurface) else surfaces
     return Plates(*attrs.astuple(find_plates(given, seams, *args, **options), recurse=False))
 
 
@@ -201,8 +197,8 @@ def plates_of_hull(surface: Any, seams: HullSeams, *args: Any, **options: Any) -
 
 
 @attrs.frozen(eq=False)
-class HullSurface(ShownAsText, NetSurface):
-    """The surface of a half hull: a `NetSurface` that can be measured, meshed and written."""
+class HullSurface(ShownAsText, FittedSurface):
+    """The surface of a half hull: a `FittedSurface` that can be measured, meshed and written."""
 
     @property
     def residuals(self) -> ResidualTable:
@@ -289,7 +285,7 @@ def surface_of_hull(
     hull: HasState,
     *,
     leave_out: Sequence[str] = (),
-    previous: NetSurface | None = None,
+    previous: FittedSurface | None = None,
     smoothing: float | None = None,
     tolerance: float | None = None,
     cutoff: float = CUTOFF,
@@ -298,7 +294,7 @@ def surface_of_hull(
     where = "in surface"
     state = state_of(hull, where)
     if previous is not None:
-        instance(previous, NetSurface, "previous", where)
+        instance(previous, FittedSurface, "previous", where)
     options = fit_options(length_of(state), smoothing, tolerance, cutoff)
     names = all_of(leave_out, str, "leave_out", where)
     found = surface_of_net(state, options, tuple(names), previous)

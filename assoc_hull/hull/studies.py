@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, TypeVar
 
 import attrs
 import numpy as np
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.arguments import file_path, integer, shown
 from assoc_hull.display import ShownAsText
-from assoc_hull.edit.document import Document
+from assoc_hull.edit.document import Document, HasDocument
 from assoc_hull.edit.recording import VariedValues
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import IntArray
@@ -31,7 +31,7 @@ from assoc_hull.io.tables.study import (
 )
 from assoc_hull.io.tables.study_file import StudyFile
 from assoc_hull.io.write_file import write_whole
-from assoc_hull.model.tables import HasState, copy_state, state_of
+from assoc_hull.model.tables import copy_state, state_of
 from assoc_hull.study.design import StudyDesign
 from assoc_hull.study.pareto import pareto_front
 from assoc_hull.study.run import StudyRow, StudyRun
@@ -44,15 +44,6 @@ __all__ = ["Study", "make_study"]
 HullType = TypeVar("HullType")
 
 _WORKERS = 256
-
-
-class HasDocument(HasState, Protocol):
-    """A hull, as far as these functions know it: tables, and the history they belong to."""
-
-    @property
-    def document(self) -> Document:
-        """Tables with their history."""
-        ...
 
 
 @attrs.frozen(eq=False)

@@ -10,7 +10,7 @@ import assoc_hull as ah
 from assoc_hull.hull import Hull
 from assoc_hull.hull.results import HullSurface
 from assoc_hull.surface.blocks.fit_net import share_kept
-from assoc_hull.surface.blocks.net_surface import FittedBlock
+from assoc_hull.surface.blocks.fitted_surface import FittedBlock
 
 STAYED = ("stern counter", "stern boss", "body")
 

@@ -12,7 +12,7 @@ import pytest
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
 from assoc_hull.hull.results import HullSurface
-from assoc_hull.surface.blocks.net_surface import FittedBlock
+from assoc_hull.surface.blocks.fitted_surface import FittedBlock
 
 BODY, ENDS, MEDIAN = 8.0, 15.0, 1.5  # mm
 SHIPS = ["series60_70", "bulk_carrier", "dtc"]

@@ -28,7 +28,7 @@ from assoc_hull.model.kinds import FAMILIES
 from assoc_hull.model.tables import HullState
 from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import fit_options, length_of
-from assoc_hull.surface.blocks.net_surface import require_sound_surface
+from assoc_hull.surface.blocks.fitted_surface import require_sound_surface
 from assoc_hull.surface.cells.closed_mesh import mesh_of_net
 
 __all__ = ["rhino_file", "rhino_module"]

@@ -25,10 +25,10 @@ from assoc_hull.io.tables.json_schema import (
 )
 from assoc_hull.io.write_file import form_by_ending
 from assoc_hull.model.value_schema import NAME, NOT_NEGATIVE, POSITIVE, REAL, TEXT, list_of, one_of
-from assoc_hull.surface.blocks.net_surface import (
+from assoc_hull.surface.blocks.fitted_surface import (
     FORMAT,
     SCHEMA,
-    NetSurface,
+    FittedSurface,
     require_sound_surface,
 )
 from assoc_hull.surface.cells.closed_mesh import mesh_of_net
@@ -36,7 +36,7 @@ from assoc_hull.surface.cells.closed_mesh import mesh_of_net
 __all__ = [
     "SURFACE_ENDINGS",
     "SURFACE_FORMS",
-    "net_surface_schema",
+    "fitted_surface_schema",
     "surface_form_of",
     "write_surface",
 ]
@@ -65,7 +65,7 @@ def surface_form_of(path: str | os.PathLike[str], form: str | None = None) -> st
 
 
 def write_surface(
-    found: NetSurface,
+    found: FittedSurface,
     path: str | os.PathLike[str],
     form: str | None = None,
     *,
@@ -77,7 +77,7 @@ def write_surface(
 
     Parameters
     ----------
-    found : NetSurface
+    found : FittedSurface
         The surface.
     path : path
         The file; what was there is replaced by the whole of it, or stays.
@@ -107,7 +107,7 @@ def write_surface(
     OpenNetError, OpenMeshError
         The mesh does not close.
     """
-    instance(found, NetSurface, "the surface", _WHERE)
+    instance(found, FittedSurface, "the surface", _WHERE)
     chosen, name = surface_form_of(path, form), found.particulars.name or "hull"
     alone = flag(half, "half", _WHERE)
     taken = flag(accept, "accept", _WHERE)
@@ -183,13 +183,13 @@ _BORDER = closed_object(
 )
 
 
-def net_surface_schema() -> Schema:
+def fitted_surface_schema() -> Schema:
     """Give the JSON Schema (draft 2020-12) of the report of a surface.
 
     Examples
     --------
-    >>> from assoc_hull.io.surfaces.hull_surface import net_surface_schema
-    >>> net_surface_schema()["required"][:4]
+    >>> from assoc_hull.io.surfaces.hull_surface import fitted_surface_schema
+    >>> fitted_surface_schema()["required"][:4]
     ['format', 'schema', 'ship', 'blocks']
     """
     parts = {

@@ -43,7 +43,7 @@ from assoc_hull.model.tables import (
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
-    "Keys",
+    "ObjectNumbers",
     "add_rows",
     "check_meetings",
     "computed_points",
@@ -65,7 +65,7 @@ def contradiction(what: str, where: str) -> BadInputError:
 
 
 @attrs.frozen
-class Keys:
+class ObjectNumbers:
     """Numbers of groups, lines, curves and points, by name or key."""
 
     groups: dict[str, int]
@@ -112,7 +112,7 @@ def add_rows(
 
 
 def put_features(
-    state: HullState, journal: Journal, records: Iterable[Mapping[str, Any]], keys: Keys
+    state: HullState, journal: Journal, records: Iterable[Mapping[str, Any]], keys: ObjectNumbers
 ) -> None:
     """Put the features of a definition into the tables.
 
@@ -131,7 +131,7 @@ def put_features(
     Maker(state, journal).features(features)
 
 
-def _feature(record: Mapping[str, Any], keys: Keys) -> Feature:
+def _feature(record: Mapping[str, Any], keys: ObjectNumbers) -> Feature:
     where = f"the feature {record['key']}"
     points = [keys.find("points", key, where) for key in record["points"]]
     for key in record["lines"]:
@@ -158,7 +158,7 @@ def computed_points(definition: Record) -> frozenset[str]:
     )
 
 
-def put_forms(state: HullState, journal: Journal, definition: Record, keys: Keys) -> None:
+def put_forms(state: HullState, journal: Journal, definition: Record, keys: ObjectNumbers) -> None:
     """Put form definitions and generated curves into tables that hold curves and points.
 
     Raises
@@ -192,7 +192,7 @@ def _form(record: Record) -> FormDefinition:
         raise contradiction(error.what, error.where) from error
 
 
-def _curve(state: HullState, record: Record, keys: Keys) -> GeneratedCurve:
+def _curve(state: HullState, record: Record, keys: ObjectNumbers) -> GeneratedCurve:
     key = record["curve"]
     where = f"at the generated curve {key!r}"
     curve = keys.find("curves", key, "the generated curves")
@@ -247,7 +247,7 @@ def put_points(
     state: HullState,
     journal: Journal,
     points: list[Record],
-    keys: Keys,
+    keys: ObjectNumbers,
     computed: Collection[str] = (),
 ) -> None:
     """Add the points of a hull, with the links that follow from their roles.
@@ -342,13 +342,15 @@ def _pair(vectors: Sequence[Sequence[float]]) -> list[Sequence[float]]:
     return [*vectors, *[_ZERO] * (2 - len(vectors))]
 
 
-def _numbers(keys: Keys, kind: str, names: Sequence[str | None], where: str) -> list[int]:
+def _numbers(keys: ObjectNumbers, kind: str, names: Sequence[str | None], where: str) -> list[int]:
     """Give two numbers, -1 for none."""
     found = [-1 if name is None else keys.find(kind, name, where) for name in names]
     return [*found, *[-1] * (2 - len(found))]
 
 
-def _put_riding(state: HullState, journal: Journal, points: list[Record], keys: Keys) -> None:
+def _put_riding(
+    state: HullState, journal: Journal, points: list[Record], keys: ObjectNumbers
+) -> None:
     """Put the links of adopted points to the neighbours with which they ride."""
     riding = [number for number, point in enumerate(points) if "riding" in point]
     if not riding:
@@ -365,7 +367,9 @@ def _put_riding(state: HullState, journal: Journal, points: list[Record], keys: 
     journal.put(state.rows.anchor_weight, riding, [link["weight"] for link in links])
 
 
-def put_defining(state: HullState, journal: Journal, curves: list[Record], keys: Keys) -> None:
+def put_defining(
+    state: HullState, journal: Journal, curves: list[Record], keys: ObjectNumbers
+) -> None:
     """Put the points on the curves they define, in order.
 
     Raises
@@ -572,7 +576,7 @@ def make_tables(definition: Record) -> HullState:
     parts = [_sorted(definition[name]) for name in ("lines", "curves", "points")]
     groups = sorted(definition["groups"], key=lambda each: str(each["name"]))
     gone = definition["retired"]
-    keys = Keys(
+    keys = ObjectNumbers(
         _number("group", [group["name"] for group in groups], ()),
         _number("line", [line["key"] for line in parts[0]], gone["lines"]),
         _number("curve", [curve["key"] for curve in parts[1]], gone["curves"]),
@@ -608,7 +612,11 @@ def _number(kind: str, keys: Sequence[str], gone: Sequence[str]) -> dict[str, in
 
 
 def _put_groups(
-    state: HullState, journal: Journal, groups: list[Record], definition: Record, keys: Keys
+    state: HullState,
+    journal: Journal,
+    groups: list[Record],
+    definition: Record,
+    keys: ObjectNumbers,
 ) -> None:
     names, families = [each["name"] for each in groups], [each["family"] for each in groups]
     members = [tuple(each.get("members", ())) for each in groups]
@@ -633,7 +641,9 @@ def _put_groups(
     journal.set(state.settings.births, [0], [Births.of(births)])
 
 
-def _put_rulings(state: HullState, journal: Journal, rulings: Sequence[Record], keys: Keys) -> None:
+def _put_rulings(
+    state: HullState, journal: Journal, rulings: Sequence[Record], keys: ObjectNumbers
+) -> None:
     names = set(state.groups.name.data)
     for each in rulings:
         for name in (each["a"], each["b"]):
@@ -647,7 +657,9 @@ def _put_rulings(state: HullState, journal: Journal, rulings: Sequence[Record], 
         journal.set(state.settings.rulings, [0], [found])
 
 
-def _put_lines(state: HullState, journal: Journal, lines: list[Record], keys: Keys) -> None:
+def _put_lines(
+    state: HullState, journal: Journal, lines: list[Record], keys: ObjectNumbers
+) -> None:
     names = [(line["group"], line["name"]) for line in lines]
     for line, name in zip(lines, names, strict=True):
         if ("normal" in line) != ("offset" in line):
@@ -678,7 +690,9 @@ def _put_lines(state: HullState, journal: Journal, lines: list[Record], keys: Ke
     )
 
 
-def _put_curves(state: HullState, journal: Journal, curves: list[Record], keys: Keys) -> None:
+def _put_curves(
+    state: HullState, journal: Journal, curves: list[Record], keys: ObjectNumbers
+) -> None:
     owner = [keys.find("lines", curve["line"], curve["key"]) for curve in curves]
     add_rows(
         state.curves,

@@ -18,7 +18,7 @@ from assoc_hull.plot.plates.paint_tiles import paint_quads
 from assoc_hull.plot.sheet.paper import MARGIN, POINT, PaperName, Pen
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import caption, frame
-from assoc_hull.surface.blocks.net_surface import NetSurface
+from assoc_hull.surface.blocks.fitted_surface import FittedSurface
 from assoc_hull.surface.regions.surface_batches import batches_of
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ _LOOKS = 129
 
 
 def surface_figure(
-    surface: NetSurface | Sequence[SplineSurface],
+    surface: FittedSurface | Sequence[SplineSurface],
     path: Path_ | None = None,
     *,
     title: str | None = None,
@@ -60,7 +60,7 @@ def surface_figure(
 
     Parameters
     ----------
-    surface : NetSurface, or sequence of SplineSurface
+    surface : FittedSurface, or sequence of SplineSurface
         The half hull, as `surface` gives it; or its blocks, with normals out of the hull.
     path : path, optional
         Where to write it; the ending says whether PDF, SVG or PNG.
@@ -92,7 +92,7 @@ def surface_figure(
     """
     where = "in surface_figure"
     name = "" if title is None else text(title, "title", where)
-    if isinstance(surface, NetSurface):
+    if isinstance(surface, FittedSurface):
         surfaces, name = surface.patches, name or surface.particulars.name
     else:
         surfaces = tuple(all_of(surface, SplineSurface, "surface", where))

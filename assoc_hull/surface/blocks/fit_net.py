@@ -40,7 +40,7 @@ from assoc_hull.surface.blocks.fit_quality import (
     line_distances,
     sum_residuals,
 )
-from assoc_hull.surface.blocks.net_surface import FittedBlock, NetSurface
+from assoc_hull.surface.blocks.fitted_surface import FittedBlock, FittedSurface
 
 __all__ = [
     "EarlierBlocks",
@@ -283,8 +283,8 @@ def surface_of_net(
     state: HullState,
     options: FitOptions,
     leave_out: Sequence[str] = (),
-    previous: NetSurface | None = None,
-) -> NetSurface:
+    previous: FittedSurface | None = None,
+) -> FittedSurface:
     """Fit a surface to the lines of a hull.
 
     Parameters
@@ -295,7 +295,7 @@ def surface_of_net(
         Penalty and tolerances.
     leave_out : sequence of str
         Names of lines that are not used at all, but measured.
-    previous : NetSurface, optional
+    previous : FittedSurface, optional
         An earlier surface; of use if it was made with the same options and lines left out.
 
     Raises
@@ -319,7 +319,7 @@ def surface_of_net(
     told = (note for border in borders for note in doubts_of_border(border))
     notes = tuple(dict.fromkeys((*_of_length(state, options), *told)))
     refitted = tuple(block.name for block in found if block.name in followed.refitted)
-    return NetSurface(
+    return FittedSurface(
         state.particulars, options, net, found, borders, tuple(leave_out), refitted, notes,
         _of_all(made, misses, net),
     )  # fmt: skip
@@ -335,7 +335,7 @@ def _of_length(state: HullState, options: FitOptions) -> tuple[str, ...]:
 
 
 def earlier_of(
-    previous: NetSurface | None, options: FitOptions, leave_out: Sequence[str]
+    previous: FittedSurface | None, options: FitOptions, leave_out: Sequence[str]
 ) -> EarlierBlocks | None:
     """Give what may be taken from an earlier surface: nothing if other things were asked of it."""
     if previous is None or previous.left_out != tuple(leave_out):

@@ -17,7 +17,7 @@ from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.blocks.net_surface import NetSurface
+from assoc_hull.surface.blocks.fitted_surface import FittedSurface
 from assoc_hull.surface.plating.columns import (
     PlateColumn,
     attribute_getter,
@@ -206,7 +206,7 @@ _FEW, _FINE = 20, (41, 161)
 
 
 def hull_plates(
-    surface: NetSurface | Sequence[SplineSurface],
+    surface: FittedSurface | Sequence[SplineSurface],
     seams: HullSeams,
     zero: str = "strain",
     strain_tol: float = STRAIN_TOL,
@@ -216,7 +216,7 @@ def hull_plates(
     sagitta_length: float | None = None,
     share: float = SHARE,
     suggestions: Mapping[str, str] | None = None,
-    others: Sequence[NetSurface] = (),
+    others: Sequence[FittedSurface] = (),
     previous: HullPlateTable | None = None,
 ) -> HullPlateTable:
     """Tell of each plate of a hull how it is curved, and how sure that is.
@@ -229,7 +229,7 @@ def hull_plates(
 
     Parameters
     ----------
-    surface : NetSurface, or sequence of SplineSurface
+    surface : FittedSurface, or sequence of SplineSurface
         The half hull, as `surface` gives it; or its blocks, u along the ship, v round the girth.
     seams : HullSeams
         Butts and seams.
@@ -243,7 +243,7 @@ def hull_plates(
         Half the width of the band of the mode "absolute".
     sagitta_tol, sagitta_length, share, suggestions
         See `plates`.
-    others : sequence of NetSurface
+    others : sequence of FittedSurface
         Other fits of the same hull, such as a stiffer one and one without every second waterline:
         by what they change, a plate's dK is found.
     previous : HullPlates, optional
@@ -275,7 +275,7 @@ def hull_plates(
         raise BadInputError(what, _WHERE, "give a breadth, m")
     if previous is not None:
         instance(previous, HullPlateTable, "previous", _WHERE)
-    fits = all_of(others, NetSurface, "others", _WHERE)
+    fits = all_of(others, FittedSurface, "others", _WHERE)
     level = zero_band(zero, strain_tol, breadth, k0, None, _WHERE).k0
     regions = curvature_regions(
         surfaces, zero, strain_tol, breadth, k0, levels=levels_about(level)[2:],
@@ -299,7 +299,7 @@ Blocks = tuple[
 
 def _blocks(surface: object) -> Blocks:
     """Take a fitted surface, or surfaces: with names, and tangent corners."""
-    if isinstance(surface, NetSurface):
+    if isinstance(surface, FittedSurface):
         blocks = surface.blocks
         return (
             surface.patches,
@@ -313,7 +313,7 @@ def _blocks(surface: object) -> Blocks:
 
 
 def _rivals(
-    shell: HullShell, names: Sequence[str], fits: Sequence[NetSurface]
+    shell: HullShell, names: Sequence[str], fits: Sequence[FittedSurface]
 ) -> tuple[FloatArray, ...]:
     """Give the curvature of other fits at the nodes of a hull."""
     return tuple(

@@ -20,7 +20,7 @@ from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.model.tables import HullState
 from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import FitOptions
-from assoc_hull.surface.blocks.net_surface import NetSurface
+from assoc_hull.surface.blocks.fitted_surface import FittedSurface
 from assoc_hull.surface.plating.hull_shell import NODES, HullShell
 
 __all__ = [
@@ -44,7 +44,7 @@ def every_second_waterline(state: HullState) -> tuple[str, ...]:
     return tuple(sorted(heights, key=lambda name: (heights[name], name))[::2])
 
 
-def other_fits(state: HullState, options: FitOptions) -> tuple[NetSurface, ...]:
+def other_fits(state: HullState, options: FitOptions) -> tuple[FittedSurface, ...]:
     """Fit a hull twice more: with twice the penalty, and without every second waterline."""
     stiffer = attrs.evolve(options, smoothing=_STIFFER * options.smoothing)
     found = [surface_of_net(state, stiffer)]

@@ -16,7 +16,11 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import examples
 from assoc_hull.io.export.write import ENDINGS, FORMS, export_form
-from assoc_hull.io.surfaces.hull_surface import SURFACE_ENDINGS, SURFACE_FORMS, net_surface_schema
+from assoc_hull.io.surfaces.hull_surface import (
+    SURFACE_ENDINGS,
+    SURFACE_FORMS,
+    fitted_surface_schema,
+)
 from assoc_hull.io.tables.json_schema import dumps_schema
 from tests.unit.cli.conftest import Json
 
@@ -119,7 +123,7 @@ def test_a_surface_is_fitted_told_and_written(small: Path, facts: Json, tmp_path
     found = facts(
         "surface", small, "-o", tmp_path / "a.igs", "--leave-out", "WL 2.5", "ST 3"
     )  # fmt: skip
-    Draft202012Validator(net_surface_schema()).validate(found)
+    Draft202012Validator(fitted_surface_schema()).validate(found)
     assert sorted(found["left_out"]) == ["ST 3", "WL 2.5"]
     kinds = [each["kind"] for block in found["blocks"] for each in block["residuals"]]
     assert kinds == ["fitted", "left out"]
@@ -149,9 +153,9 @@ def test_a_surface_with_crossing_halves_is_written_if_it_is_accepted(
 
 def test_the_schema_beside_the_module_is_the_one_in_use() -> None:
     """If not: ``python -m assoc_hull schema --of hull-surface -o`` writes it."""
-    Draft202012Validator.check_schema(net_surface_schema())
+    Draft202012Validator.check_schema(fitted_surface_schema())
     shipped = resources.files("assoc_hull.io").joinpath("hull_surface.schema.json")
-    assert shipped.read_text("utf-8") == dumps_schema(net_surface_schema())
+    assert shipped.read_text("utf-8") == dumps_schema(fitted_surface_schema())
 
 
 def test_every_fourth_line_is_left_out(

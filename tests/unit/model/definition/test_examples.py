@@ -6,7 +6,7 @@ from numpy.testing import assert_array_equal
 
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.definition.fill_tables import (
-    Keys,
+    ObjectNumbers,
     make_tables,
     meet_order,
     put_features,
@@ -37,13 +37,15 @@ def test_the_definition_of_a_hull_its_published_values() -> None:
 
 def test_adding_live_rows_to_the_tables_of_a_hull() -> None:
     """Adding live rows to the tables of a hull, and looking up numbers by key."""
-    assert Keys({"sections": 0}, {}, {}, {}).find("groups", "sections", "an association") == 0
+    assert (
+        ObjectNumbers({"sections": 0}, {}, {}, {}).find("groups", "sections", "an association") == 0
+    )
 
 
 def test_from_a_definition_to_the_features_of_a_hull() -> None:
     """From a definition to the features of a hull, every reference checked."""
     state = HullState(Particulars("S", 9.0, 2.0, 1.0, 1.0))
-    put_features(state, Journal(), [], Keys({}, {}, {}, {}))
+    put_features(state, Journal(), [], ObjectNumbers({}, {}, {}, {}))
     assert state.features == ()
 
 
@@ -51,7 +53,7 @@ def test_from_a_definition_to_the_form_definitions() -> None:
     """From a definition to the form definitions of a hull and its generated curves, all
     checked."""
     state = HullState(Particulars("S", 9.0, 2.0, 1.0, 1.0))
-    put_forms(state, Journal(), {}, Keys({}, {}, {}, {}))
+    put_forms(state, Journal(), {}, ObjectNumbers({}, {}, {}, {}))
     assert (state.definitions, state.generated) == ((), ())
 
 
@@ -60,7 +62,7 @@ def test_the_points_of_a_hull_from_a_definition_places() -> None:
     orders."""
     state = HullState(Particulars("S", 9.0, 2.0, 1.0, 1.0))
     point = {"key": "p", "sort": "placed", "curves": ["c"], "value": [1.0, 2.0, 3.0]}
-    put_points(state, Journal(), [point], Keys({}, {}, {"c": 0}, {"p": 0}))
+    put_points(state, Journal(), [point], ObjectNumbers({}, {}, {"c": 0}, {"p": 0}))
     assert_array_equal(state.rows.xyz.data, [[1.0, 2.0, 3.0]])
 
 

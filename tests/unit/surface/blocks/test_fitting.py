@@ -9,7 +9,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.hull import Hull
 from assoc_hull.hull.results import HullSurface
-from assoc_hull.surface.blocks.net_surface import FORMAT
+from assoc_hull.surface.blocks.fitted_surface import FORMAT
 
 
 @pytest.fixture(scope="module")

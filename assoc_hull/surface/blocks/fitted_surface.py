@@ -1,6 +1,6 @@
 """The surface through the lines of a hull: its blocks, residuals, borders, and the report of them.
 
-`NetSurface` is the half y >= 0, one spline surface a block, with normals out of the hull.
+`FittedSurface` is the half y >= 0, one spline surface a block, with normals out of the hull.
 The report is a table to read (`text_of`) and plain values for programs (`document_of`).
 """
 
@@ -32,7 +32,7 @@ __all__ = [
     "FORMAT",
     "SCHEMA",
     "FittedBlock",
-    "NetSurface",
+    "FittedSurface",
     "ResidualTable",
     "document_of",
     "require_sound_surface",
@@ -115,7 +115,7 @@ class FittedBlock:
 
 
 @attrs.frozen(eq=False)
-class NetSurface:
+class FittedSurface:
     """The surface of a half hull (y >= 0), one spline surface a block.
 
     Attributes
@@ -160,13 +160,13 @@ class NetSurface:
 # Faults, for which a surface is not written to a file.
 
 
-def surface_faults(surface: NetSurface) -> tuple[str, ...]:
+def surface_faults(surface: FittedSurface) -> tuple[str, ...]:
     """List where a surface crosses the centre plane or leaves its residual limits, and how far.
 
     Examples
     --------
     >>> import assoc_hull as ah
-    >>> from assoc_hull.surface.blocks.net_surface import surface_faults
+    >>> from assoc_hull.surface.blocks.fitted_surface import surface_faults
     >>> surface_faults(ah.examples.wigley(stations=9, waterlines=6).surface())
     ()
     """
@@ -184,7 +184,7 @@ def surface_faults(surface: NetSurface) -> tuple[str, ...]:
     )
 
 
-def require_sound_surface(surface: NetSurface, *, accept: bool) -> None:
+def require_sound_surface(surface: FittedSurface, *, accept: bool) -> None:
     """Refuse a surface with faults, unless it is accepted as it is.
 
     Raises
@@ -253,7 +253,7 @@ def _place(place: FloatArray) -> str:
     return "({:.2f}, {:.2f}, {:.2f})".format(*place.tolist())
 
 
-def text_of(surface: NetSurface) -> str:
+def text_of(surface: FittedSurface) -> str:
     """Write the report of a surface as a table and sentences."""
     ship = surface.particulars
     count = sum(len(each.surface.patches()) for each in surface.blocks)
@@ -289,7 +289,7 @@ def _border(border: BlockBorder) -> str:
     )
 
 
-def document_of(surface: NetSurface) -> dict[str, Any]:
+def document_of(surface: FittedSurface) -> dict[str, Any]:
     """Give the report as plain values: lengths in m, angles in degrees."""
     return {
         "format": FORMAT,
