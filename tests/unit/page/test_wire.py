@@ -71,7 +71,8 @@ def test_a_damaged_frame_is_one_sentence(frame: Frame, data: st.DataObject) -> N
     elif damage == "counts":
         packed[16 + 4 * data.draw(st.integers(0, 2))] ^= 1 << data.draw(st.integers(1, 6))
     else:
-        packed[0 if damage == "version" else 1] = data.draw(st.integers(4, 255))
+        unknown = st.integers(max(FrameKind) + 1, 255)
+        packed[0 if damage == "version" else 1] = data.draw(unknown)
     with pytest.raises(BadInputError) as error:
         unpack(bytes(packed))
     assert "\n" not in str(error.value)
