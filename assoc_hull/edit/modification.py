@@ -7,7 +7,7 @@ class, and a line in the table of `assoc_hull.edit.update`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
 from typing import Protocol, TypeVar, cast
 
@@ -143,6 +143,9 @@ class LateAnswer(Protocol):
 
     def reached(self) -> Iterable[tuple[str, IntArray]]:
         """Give in words each thing that is asked for, and the nodes (k,) that it may set."""
+
+    def goals(self) -> Mapping[int, FloatArray]:
+        """Give the places, (3,), m, to which points are to come, by row."""
 
     def carry_out(self) -> None:
         """Carry it out, as stages of the edit."""

@@ -784,6 +784,8 @@ class Edit:
     def regroup(self, group: Group | str, lines: Sequence[Group | Line | str]) -> None:
         """Let a group of one's own hold other lines and groups.
 
+        Where it rules, crossings of the lines that it gains or loses are switched.
+
         Raises
         ------
         BadInputError
@@ -792,7 +794,8 @@ class Edit:
             No such group or line.
         """
         members = self._given.members(lines, "in regroup")
-        _groups.regroup(self._transaction, self._given.group_or_line(group), members)
+        with self._transaction.whole() as held:
+            _groups.regroup(held, self._given.group_or_line(group), members)
 
     @recorded
     def ungroup(self, group: Group | str) -> None:
@@ -805,7 +808,8 @@ class Edit:
         UnknownNameError
             No such group.
         """
-        _groups.ungroup(self._transaction, self._given.group_or_line(group))
+        with self._transaction.whole() as held:
+            _groups.ungroup(held, self._given.group_or_line(group))
 
     @recorded
     def dissociate(self, a: Group | str, b: Group | str) -> None:

@@ -9,8 +9,8 @@ import numpy as np
 from assoc_hull.arguments import flag, word
 from assoc_hull.edit.lines.plane_intersections import intersect_groups, remove_planes
 from assoc_hull.edit.modifications.switch_crossings import (
+    follow_ways,
     leave_stand_ins,
-    switch_crossings,
     take_up_stand_ins,
 )
 from assoc_hull.edit.transaction import Transaction
@@ -20,7 +20,7 @@ from assoc_hull.model.kinds import FAMILIES, Sort
 from assoc_hull.model.links import crossing_ways, named_lines
 from assoc_hull.model.tables import Association, HullState, Ruling
 
-__all__ = ["associate", "dissociate", "rule"]
+__all__ = ["associate", "dissociate", "rule", "ruled_crossings"]
 
 
 def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> None:
@@ -50,9 +50,7 @@ def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> Non
     if not known:
         take_up_stand_ins(edit, intersect_groups(edit, a, b))
     rows = _crossings(state, a, b)
-    ways = crossing_ways(state, rows)
-    changed = ~ways.all(axis=1) if before is None else (ways != before).any(axis=1)
-    switch_crossings(edit, rows[changed], ways[changed])
+    follow_ways(edit, rows, np.ones((len(rows), 2), np.bool_) if before is None else before)
 
 
 def rule(edit: Transaction, a: str, b: str, where: Sequence[Ruling]) -> None:
@@ -83,9 +81,16 @@ def rule(edit: Transaction, a: str, b: str, where: Sequence[Ruling]) -> None:
     kept = [each for each in state.rulings if {each.a, each.b} != {a, b}]
     edit.journal.set(state.settings.rulings, [0], [(*where, *kept)])
     edit.pending.structural = True
-    ways = crossing_ways(state, rows)
-    changed = (ways != before).any(axis=1)
-    switch_crossings(edit, rows[changed], ways[changed])
+    follow_ways(edit, rows, before)
+
+
+def ruled_crossings(state: HullState) -> IntArray:
+    """Give the crossings (k,) of all pairs of which is said who rules where."""
+    found = [
+        _crossings_of(state, named_lines(state, each.a), named_lines(state, each.b))
+        for each in state.rulings
+    ]
+    return np.unique(np.concatenate([np.zeros(0, np.int64), *found]))
 
 
 def _drop_rulings(edit: Transaction, a: str, b: str) -> None:

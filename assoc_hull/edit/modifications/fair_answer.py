@@ -374,6 +374,10 @@ class FairAnswer:
                 inside = widest.fade(state, xyz, last) != 0.0
             yield f"the lead of {lead.name}", Node.point(np.concatenate([lead.rows, free[inside]]))
 
+    def goals(self) -> Mapping[int, FloatArray]:
+        """Give where the points of curves that lead are to come."""
+        return {row: goal for each in self.leads for row, goal in each.goals().items()}
+
     def carry_out(self) -> None:
         """Search for the answer, and leave it as the last stage of the edit.
 

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
 from assoc_hull.arguments import plain_name
+from assoc_hull.edit.modifications.associations import ruled_crossings
 from assoc_hull.edit.modifications.names import taken_names
+from assoc_hull.edit.modifications.switch_crossings import follow_ways
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, NameTakenError
 from assoc_hull.model.kinds import OWN
-from assoc_hull.model.links import holders, live_group
+from assoc_hull.model.links import crossing_ways, holders, live_group
 from assoc_hull.model.tables import HullState
 
 __all__ = ["group", "regroup", "ungroup"]
@@ -29,7 +36,7 @@ def group(edit: Transaction, name: str, members: tuple[str, ...]) -> int:
 
 
 def regroup(edit: Transaction, name: str, members: tuple[str, ...]) -> None:
-    """Let a group hold other lines and groups.
+    """Let a group hold other lines and groups; where it rules, what it gains or loses is switched.
 
     Raises
     ------
@@ -42,7 +49,8 @@ def regroup(edit: Transaction, name: str, members: tuple[str, ...]) -> None:
         if path:
             what = f"the group {name!r} would hold itself: {' -> '.join((name, *path))}"
             raise BadInputError(what, "in regroup", "leave one of them out")
-    edit.journal.set(state.groups.members, [number], [members])
+    with _rulings_followed(edit):
+        edit.journal.set(state.groups.members, [number], [members])
     edit.pending.structural = True
 
 
@@ -62,13 +70,27 @@ def ungroup(edit: Transaction, name: str) -> None:
             raise BadInputError(
                 what, "in ungroup", f"take that back before: edit.rule({name!r}, {other!r}, [])"
             )
-    for holder in holders(state, name).tolist():
-        left = tuple(each for each in state.groups.members[holder] if each != name)
-        edit.journal.set(state.groups.members, [holder], [left])
+    with _rulings_followed(edit):
+        for holder in holders(state, name).tolist():
+            left = tuple(each for each in state.groups.members[holder] if each != name)
+            edit.journal.set(state.groups.members, [holder], [left])
     edit.journal.put(state.groups.alive, [number], False)
     edit.journal.set(state.groups.members, [number], [()])
     edit.journal.set(state.groups.name, [number], [""])
     edit.pending.structural = True
+
+
+@contextmanager
+def _rulings_followed(edit: Transaction) -> Iterator[None]:
+    """Switch, behind what is done inside, the crossings of lines that left or joined a ruler."""
+    state = edit.state
+    if not state.rulings:
+        yield
+        return
+    rows = ruled_crossings(state)
+    yield
+    rows = np.union1d(rows, ruled_crossings(state))
+    follow_ways(edit, rows, crossing_ways(state, rows))
 
 
 def _own(state: HullState, name: str, where: str) -> int:

@@ -135,6 +135,7 @@ def put(edit: Transaction, freedoms: Sequence[PointFreedom], places: FloatArray)
     led = np.array([_can_lead(state, each) for each in freedoms])
     if (~led).any():
         pinned = [each for each, mine in zip(freedoms, led.tolist(), strict=True) if not mine]
+        _refuse_led(edit, pinned, places[~led])
         points.put_pinned(edit, pinned, places[~led])
     choosers: dict[int, _Chooser] = {}
     for row, place in zip(rows[led].tolist(), places[led], strict=True):
@@ -149,10 +150,24 @@ def put(edit: Transaction, freedoms: Sequence[PointFreedom], places: FloatArray)
 
 def put_pinned(edit: Transaction, freedoms: Sequence[PointFreedom], places: FloatArray) -> None:
     """Put points to places (k, 3), m, without leading, and say so where they could lead."""
+    _refuse_led(edit, freedoms, places)
     points.put_pinned(edit, freedoms, places)
     for each, place in zip(freedoms, places, strict=True):
         if _can_lead(edit.state, each) and (place != edit.state.rows.xyz[each.row]).any():
             points.note_pinned(edit, each.name)
+
+
+def _refuse_led(edit: Transaction, freedoms: Sequence[PointFreedom], places: FloatArray) -> None:
+    """Refuse to put points elsewhere than to where the same edit leads them: it leads last."""
+    goals = {} if edit.pending.answer is None else edit.pending.answer.goals()
+    for each, place in zip(freedoms, places, strict=True):
+        if each.row in goals and (goals[each.row] != place).any():
+            raise _two_places(edit.state, each.row, f"in move of {each.name}")
+
+
+def _two_places(state: HullState, row: int, where: str) -> BadInputError:
+    what = f"{address(state, row)} is asked to be in two places"
+    return BadInputError(what, where, "leave one of the two out, or use two edits")
 
 
 def _can_lead(state: HullState, freedom: PointFreedom) -> bool:
@@ -261,14 +276,16 @@ class _Chooser:
         self._ask(curve, row, xyz)
 
     def _ask(self, curve: int, row: int, xyz: FloatArray) -> None:
+        put = self.edit.pending.values.get(row)
+        if put is not None and (put != xyz).any() and not self._is_new(row):
+            raise _two_places(self.state, row, self.where)
         self.put(self.asked.setdefault(curve, {}), row, xyz)
 
     def put(self, goals: dict[int, FloatArray], row: int, xyz: FloatArray) -> None:
         """Note a goal; a point that the same edit has made comes where it is asked last."""
         moved = row in goals and (goals[row] != xyz).any()
         if moved and (row in self.made or not self._is_new(row)):
-            what = f"{address(self.state, row)} is asked to be in two places"
-            raise BadInputError(what, self.where, "leave one of the two out")
+            raise _two_places(self.state, row, self.where)
         goals[row] = xyz
 
     def _is_new(self, row: int) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import attrs
 
-from assoc_hull.arguments import shown, word
+from assoc_hull.arguments import plain_name, shown, word
 from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, NameTakenError
@@ -60,7 +60,8 @@ def _rename_line(edit: Transaction, line: int, name: str) -> None:
         for other in state.live("lines").tolist()
         if state.lines.group[other] == group and other != line
     }
-    if name in others | _fixed(state) | _labels(state, -1):
+    fixed = _fixed(state) | _labels(state, -1)
+    if name in others | fixed or plain_name(name) in _plain_groups(state):
         raise NameTakenError(f"line of {state.groups.name[int(group)]}", name)
     _rename_features(edit, str(state.lines.key[line]), state.lines.name[line], name)
     edit.journal.set(state.lines.name, [line], [name])
@@ -78,11 +79,13 @@ def rename_lines(edit: Transaction, names: Mapping[int, str]) -> None:
     """
     state, wanted = edit.state, {line: line_name(name) for line, name in names.items()}
     fixed = _fixed(state) | _labels(state, -1)
-    taken = set[tuple[int, str]]()
+    taken, own = set[tuple[int, str]](), _plain_groups(state)
     for line in state.live("lines").tolist():
         name = wanted.get(line, str(state.lines.name[line]))
         group = int(state.lines.group[line])
-        if (group, name) in taken or (line in wanted and name in fixed):
+        if (group, name) in taken or (
+            line in wanted and (name in fixed or plain_name(name) in own)
+        ):
             raise NameTakenError(f"line of {state.groups.name[group]}", name)
         taken.add((group, name))
     for line, name in wanted.items():
@@ -117,6 +120,11 @@ def taken_names(state: HullState) -> set[str]:
 def _fixed(state: HullState) -> set[str]:
     """Give the names that no object can lay down."""
     return set(state.groups.name.data) | set(state.lines.key.data)
+
+
+def _plain_groups(state: HullState) -> set[str]:
+    """Give the names of groups as they are looked up: case and spaces do not matter."""
+    return {plain_name(state.groups.name[each]) for each in state.live("groups").tolist()}
 
 
 def _labels(state: HullState, but: int) -> set[str]:

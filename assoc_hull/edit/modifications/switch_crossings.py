@@ -25,10 +25,11 @@ from assoc_hull.model.address import address
 from assoc_hull.model.gaps import gap_at
 from assoc_hull.model.keys import crossing_key
 from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.links import crossing_ways
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.tables import HullState
 
-__all__ = ["Ways", "leave_stand_ins", "switch_crossings", "take_up_stand_ins"]
+__all__ = ["Ways", "follow_ways", "leave_stand_ins", "switch_crossings", "take_up_stand_ins"]
 
 Ways = np.typing.NDArray[np.bool_]
 """Of crossings (k, 2): whether a generates points on b, and b on a."""
@@ -60,6 +61,27 @@ def switch_crossings(edit: Transaction, rows: IntArray, ways: Ways) -> None:
         if not all(way):
             work.one_way(row, taker=int(way[0]))
     work.finish()
+
+
+def follow_ways(edit: Transaction, rows: IntArray, before: Ways) -> None:
+    """Switch those of some crossings (k,) that are otherwise than associations and rulings say.
+
+    These are crossings whose ways differ from those `before` the statement, that define the curve
+    which is to give alone, and that were switched where nothing rules any more: an edit can have
+    carried them out of the box in which they were.
+    """
+    state, alone = edit.state, ~edit.state.rows.contact[rows]
+    rows, before = rows[alone], before[alone]
+    if not len(rows):
+        return
+    ways = crossing_ways(state, rows)
+    free = ways.all(axis=1)
+    defines = np.array([_DEFINES[Role(role)] for role in state.rows.role[rows].tolist()])
+    giver = (~ways[:, 0]).astype(np.int64)
+    odd = ~free & defines[np.arange(len(rows)), giver]
+    odd |= free & (state.rows.first_role[rows] >= 0)
+    odd |= (ways != before).any(axis=1)
+    switch_crossings(edit, rows[odd], ways[odd])
 
 
 def take_up_stand_ins(edit: Transaction, rows: IntArray) -> None:
