@@ -150,6 +150,10 @@ class FairedFollowers:
     lines: tuple[tuple[str, int, int], ...]
     steps: tuple[Step, ...] = attrs.field(repr=False)
 
+    def without(self) -> FairedFollowers:
+        """Give the same where nothing is moved; it is to be repeated, which counts anew."""
+        return attrs.evolve(self, points=0, largest=0.0, steps=())
+
     def __str__(self) -> str:
         told = (
             f"followers faired within {1e3 * self.within:.3g} mm: {self.points} points moved, by "
@@ -221,7 +225,8 @@ def repeat_fairing(
     for step in before.steps:
         _carry(edit, step)
     now = _Judged.of(edit.state, parent)
-    return attrs.evolve(before, after=now.count, lines=now.lines)
+    alone = before.before if before.steps else now.count
+    return attrs.evolve(before, before=alone, after=now.count, lines=now.lines)
 
 
 def _told(

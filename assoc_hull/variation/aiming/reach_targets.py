@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
-from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.model.tables import HullState, copy_state
 from assoc_hull.variation.aiming.hull_problem import HullProblem, Reached
@@ -61,6 +61,10 @@ _HELD, _HELD_PROMISED = 1e-9, 1e-8
 
 _ROUNDS = 7
 
+_SEARCHED = 2
+"""So often what fairs the followers is searched for anew, as each search gives another hull; then
+it is done again as it was found, and values are met with it."""
+
 _JUMPED = 0.1
 """A miss of more than this part of a value, and than the change that was asked for, is no miss of
 a map: what is measured has jumped to another place of the hull."""
@@ -94,7 +98,9 @@ class SettledPlan:
     off, shift : (m,), of the size of targets; (m,)
         By how much targets are missed with followers faired, and by how much less was aimed at.
     again : FairedFollowers or None
-        The fairing that was repeated; None where it was searched for.
+        The fairing that was to be repeated; None where it was searched for at once.
+    insist : bool
+        Whether it was taken as it came.
     """
 
     carry: StagedCarry
@@ -108,6 +114,7 @@ class SettledPlan:
     off: FloatArray | None = None
     shift: FloatArray | None = None
     again: FairedFollowers | None = None
+    insist: bool = False
 
     @property
     def missed(self) -> float:
@@ -155,6 +162,10 @@ class _Aims:
         step = inverse @ now
         return _Aims(self.names, self.aim + step, inverse, step, now)
 
+    def afresh(self) -> _Aims:
+        """Forget the last step: what came of it was another hull than that before it."""
+        return _Aims(self.names, self.aim, self.inverse)
+
 
 def settle_plan(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
     """Carry out a plan so that the set values are met, and targets are reached if there are any.
@@ -184,23 +195,33 @@ def settle_plan(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
     best = found = _attempt(carry, aims.values, before, start)
     _refuse_jump(found, room)
     there: SettledPlan | None = found
-    rounds = 1
-    while best.unmet > 1.0 and rounds < _ROUNDS:
-        aims, rounds = aims.corrected(found.miss), rounds + 1
+    rounds, searched = 1, 0
+    while best.unmet > 1.0 and rounds < _ROUNDS + searched:
+        aims, rounds, again = aims.corrected(found.miss), rounds + 1, found.faired
         start = None if found.aimed is None else _hull(found.aimed).amplitudes
         try:
             found = there = _attempt(
-                carry, aims.values, before, start, found.faired, _shifted(found)
+                carry,
+                aims.values,
+                before,
+                start,
+                again,
+                _shifted(found),
+                insist=searched >= _SEARCHED,
             )
         except AssocHullError:
             there = None  # the correction went astray: what was asked for is not at fault
             break
+        if again is not None and found.faired is not None and found.faired.steps is not again.steps:
+            searched, aims = searched + 1, aims.afresh()
         if found.unmet < best.unmet:
             best = found
     if best.worst > PROMISED or best.missed > _HELD_PROMISED:
         raise _missed(best, ask)
     if best is not there:
-        best = _attempt(carry, best.aims, before, best.start, best.again, best.shift)
+        best = _attempt(
+            carry, best.aims, before, best.start, best.again, best.shift, insist=best.insist
+        )
     return attrs.evolve(best, rounds=rounds)
 
 
@@ -211,11 +232,13 @@ def _attempt(
     start: FloatArray | None,
     again: FairedFollowers | None = None,
     shift: FloatArray | None = None,
+    *,
+    insist: bool = False,
 ) -> SettledPlan:
     """Carry out the plan with some aims, and measure what it gives.
 
-    What fairs the followers is searched for, or done `again`; `shift` (m,) is by how much less
-    than the targets is aimed at.
+    What fairs the followers is searched for, or done `again`, which `insist` takes as it comes;
+    `shift` (m,) is by how much less than the targets is aimed at.
     """
     ask, aimed, values = carry.ask, None, dict(carry.ask.values)
     if carry.together:
@@ -229,14 +252,14 @@ def _attempt(
         values |= free
     elif not carry.carried:
         carry.carry_by_nothing()
-    faired, off = _faired(carry, again), None
+    faired, off = _faired(carry, again, insist=insist), None
     if faired is not None and aimed is not None and ask.reach is not None and before is not None:
         aimed, off = _after_fairing(carry, aimed, ask.reach, before)
     reached = measure_requested(carry.edit.state, ask)
     miss = {name: value - reached[name] for name, value in ask.values.items()}
     return SettledPlan(
         carry, dict(aims), miss, start, aimed, values,
-        faired=faired, off=off, shift=shift, again=again,
+        faired=faired, off=off, shift=shift, again=again, insist=insist,
     )  # fmt: skip
 
 
@@ -247,7 +270,9 @@ _USUAL = 0.02
 """How far followers move unless it is said, m, of a ship of 100 m or more."""
 
 
-def _faired(carry: StagedCarry, again: FairedFollowers | None) -> FairedFollowers | None:
+def _faired(
+    carry: StagedCarry, again: FairedFollowers | None, *, insist: bool
+) -> FairedFollowers | None:
     """Fair the followers if it is asked for, or do again what was found."""
     fair, lines, edit = carry.ask.fair, carry.lines, carry.edit
     if lines is None:
@@ -256,10 +281,16 @@ def _faired(carry: StagedCarry, again: FairedFollowers | None) -> FairedFollower
     from assoc_hull.variation.faired_followers import fair_followers, repeat_fairing
 
     if again is not None:
-        stages, found = edit.stages, repeat_fairing(edit, lines, again)
-        if found.after <= again.after:
+        stages = edit.stages
+        try:
+            found = repeat_fairing(edit, lines, again)
+        except RefusedEditError:
+            found = None
+        if found is not None and found.after <= (again.before - 1 if insist else again.after):
             return found
         edit.take_back(stages)  # the map differs enough to want another answer
+        if insist:  # no answer lasts while values are met: they are met as the map takes them
+            return repeat_fairing(edit, lines, again.without())
     within = _USUAL * edit.state.tolerances.factor if fair is True else float(fair)
     return fair_followers(edit, lines, within)
 

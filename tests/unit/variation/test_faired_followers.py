@@ -8,14 +8,17 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.checks.update_findings import plane_normals
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
+from assoc_hull.variation import faired_followers
 from assoc_hull.variation.comparing.line_fairness import (
     FairnessComparison,
     compare_fairness,
     measure_fairness,
 )
-from assoc_hull.variation.faired_followers import FairedFollowers
+from assoc_hull.variation.faired_followers import FairedFollowers, ParentLines
 from tests.conftest import Shipped
 
 DECK = {"deck_height": 27.5}
@@ -182,3 +185,22 @@ def lobes(hull: ah.Hull) -> dict[str, int]:
     return dict(
         zip((str(state.curves.key[curve]) for curve in curves.tolist()), count, strict=True)
     )
+
+
+def test_values_are_met_where_what_fairs_the_followers_cannot_be_repeated(
+    bulk_carrier: ah.Hull, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is searched for anew, and in the end the hull is left as the map takes it."""
+    refused = list[FairedFollowers]()
+    plain = faired_followers.repeat_fairing
+
+    def refuse(edit: Transaction, parent: ParentLines, before: FairedFollowers) -> FairedFollowers:
+        if before.steps:
+            refused.append(before)
+            raise RefusedEditError("fair", ("WL 2 folds",))
+        return plain(edit, parent, before)
+
+    monkeypatch.setattr(faired_followers, "repeat_fairing", refuse)
+    varied = bulk_carrier.vary(set={"run_deg": 45.7672}, fair=True)
+    assert len(refused) > 0
+    assert varied.report.targets[0].reached == pytest.approx(45.7672, abs=1e-6)
