@@ -28,7 +28,7 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.drawn_runs import DrawnRuns
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.followup.redraw_features import redraw_features
-from assoc_hull.edit.followup.settle_features import settle_features
+from assoc_hull.edit.followup.settle_features import affected_features, settle_features
 from assoc_hull.edit.followup.take_up_definitions import DefinitionValues
 from assoc_hull.edit.modification import Modification, Pending, Work
 from assoc_hull.edit.nudge import Nudged
@@ -108,6 +108,9 @@ def _redraw_features(
 ) -> tuple[IntArray, FloatArray]:
     """Draw bent features anew; give all points that were set, and how far they moved, m."""
     pending, state = work.pending, work.state
+    changed = np.concatenate([rows, work.changed_points()])
+    if not affected_features(work, rows, changed)[0]:
+        return rows, away
     fixed = set(pending.values).union(
         *(each.tolist() for kind in asked for each, _ in kind.landing())
     )

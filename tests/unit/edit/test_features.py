@@ -337,7 +337,8 @@ def test_a_feature_that_a_pull_bends_by_little_is_drawn_anew(bulk_carrier: ah.Hu
 def test_what_an_edit_bends_on_purpose_is_not_put_back(bulk_carrier: ah.Hull) -> None:
     """The pulled point stays, and the feature that it is of is dissolved."""
     with taken_back(bulk_carrier):
-        y = bulk_carrier["WL 2 x ST 10"].y
+        y = bulk_carrier.find("WL 2 x ST 10").y  # type: ignore[union-attr]
         gone, _ = edited(bulk_carrier, lambda edit: edit.pull("WL 2 x ST 10", d=-0.005))
         assert {"ST 10 arc", "WL 2 straight"} <= gone
-        assert y - bulk_carrier["WL 2 x ST 10"].y > 0.0049
+        after = bulk_carrier.find("WL 2 x ST 10").y  # type: ignore[union-attr]
+        assert y - after > 0.0049
