@@ -21,6 +21,7 @@ from assoc_hull.analysis.derivatives.parameters import (
 from assoc_hull.analysis.hydrostatics.floating_body import Appendage, FloatingPosition
 from assoc_hull.analysis.hydrostatics.mesh_flotation import mesh_flotation
 from assoc_hull.analysis.hydrostatics.record import FRESH, SALT, Hydrostatics, HydrostaticTable
+from assoc_hull.analysis.hydrostatics.tunnel import Tunnel
 from assoc_hull.analysis.resistance.calm_water_resistance import Resistance, ResistanceInput
 from assoc_hull.analysis.resistance.holtrop import holtrop
 from assoc_hull.analysis.resistance.holtrop_ship import HoltropShip
@@ -57,6 +58,7 @@ __all__ = [
     "Resistance",
     "ResistanceInput",
     "Stability",
+    "Tunnel",
     "below_water",
     "holtrop",
     "integrate_by_simpson",

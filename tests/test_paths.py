@@ -15,7 +15,8 @@ MOST = {
     "a moved point": 55,
     # one run stands in the place of the passes; in numpy it enters what they do to loft and cut
     "a moved point, by the program": 46,
-    "a pull": 61,
+    # where points of features moved, `redraw_features` looks whether any is bent
+    "a pull": 62,
     # columns are read through `graph.table`, by `column[row]`; a surface that is laid out and one
     # that is put on other lines are one thing, `net_surface`
     "hydrostatics": 32,

@@ -23,10 +23,12 @@ from assoc_hull.edit.checks.update_findings import (
     splines_of,
 )
 from assoc_hull.edit.crossings.adopted_points import mend_gaps
+from assoc_hull.edit.displacement_field import PullField
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.drawn_runs import DrawnRuns
 from assoc_hull.edit.field_moves import FieldMoves
-from assoc_hull.edit.followup.settle_features import settle_features
+from assoc_hull.edit.followup.redraw_features import redraw_features
+from assoc_hull.edit.followup.settle_features import affected_features, settle_features
 from assoc_hull.edit.followup.take_up_definitions import DefinitionValues
 from assoc_hull.edit.modification import Modification, Pending, Work
 from assoc_hull.edit.nudge import Nudged
@@ -96,8 +98,32 @@ def update(
         raise RefusedEditError(name, (str(error),)) from error
     if findings:
         raise RefusedEditError(name, findings)
+    rows, away = _redraw_features(work, rows, away, asked)
     settle_features(work, rows, np.concatenate([rows, work.changed_points()]))
     return step_of(work, rows, away)
+
+
+def _redraw_features(
+    work: Work, rows: IntArray, away: FloatArray, asked: Sequence[Modification]
+) -> tuple[IntArray, FloatArray]:
+    """Draw bent features anew; give all points that were set, and how far they moved, m."""
+    pending, state = work.pending, work.state
+    changed = np.concatenate([rows, work.changed_points()])
+    if not affected_features(work, rows, changed)[0]:
+        return rows, away
+    fixed = set(pending.values).union(
+        *(each.tolist() for kind in asked for each, _ in kind.landing())
+    )
+    moves = pending.asked(FieldMoves)
+    fields = () if moves is None else moves.fields
+    fixed |= {each.row for each in fields if isinstance(each, PullField)}
+    drawn = redraw_features(work, rows, fixed, lambda: not _findings(work, asked, work.touched()))
+    drawn = np.setdiff1d(drawn, rows)
+    if not len(drawn):
+        return rows, away
+    known, old = work.journal.before(state.rows.xyz)
+    step = state.rows.xyz[drawn] - old[np.searchsorted(known, drawn)]
+    return np.concatenate([rows, drawn]), np.concatenate([away, np.sqrt((step * step).sum(axis=1))])
 
 
 def _carry_out(
@@ -172,6 +198,13 @@ def _check(work: Work, asked: Sequence[Modification]) -> tuple[str, ...]:
     if len(wide.rows) and sum(each.allow(work, wide) for each in asked):
         wide = measure_gaps(work.state, curves, work.journal, work.network.index)
     work.wide = wide
+    return _findings(work, asked, curves)
+
+
+def _findings(work: Work, asked: Sequence[Modification], curves: IntArray) -> tuple[str, ...]:
+    """Give what stands against the curves as they are, gaps as they were measured last."""
+    wide = work.wide
+    assert wide is not None, "gaps are measured before"
     clean = curves[work.state.curves.state[curves] == State.CLEAN]
     batch = splines_of(work.state, clean)
     findings = find_unbounded(work.state, clean, batch)

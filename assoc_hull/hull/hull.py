@@ -59,6 +59,7 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.hydrostatics.hull_hydrostatics import DraughtTo
     from assoc_hull.analysis.hydrostatics.record import Hydrostatics, HydrostaticTable
     from assoc_hull.analysis.hydrostatics.section_areas import Bonjean
+    from assoc_hull.analysis.hydrostatics.tunnel import Tunnel
     from assoc_hull.analysis.panels.hull_panels import Side, Spacing
     from assoc_hull.analysis.resistance.calm_water_resistance import Resistance
     from assoc_hull.analysis.resistance.holtrop import Method
@@ -648,6 +649,44 @@ class Hull:
 
         where = "in half_breadth"
         return half_breadth(self.state, number(x, "x", where), number(z, "z", where))
+
+    def tunnel(self, name: str, *, x: float, z: float, radius: float) -> Tunnel:
+        """Measure a thruster's tunnel athwartships through the hull, as it is now.
+
+        Parameters
+        ----------
+        name : str
+            What it is called.
+        x, z : float, m
+            Of its axis, from AP and from the base line.
+        radius : float, m
+            Of its inside.
+
+        Returns
+        -------
+        Tunnel
+            Mouth, gaps in lines, volume, surfaces, and an `appendage` for `hydrostatics`.
+
+        Raises
+        ------
+        BadInputError
+            The tunnel leaves the hull; the message tells where.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> tunnel = hull.tunnel("bow thruster", x=88.0, z=3.0, radius=0.8)
+        >>> tunnel.gap(x=88.0)
+        (2.2, 3.8)
+        >>> bare = hull.hydrostatics(draught=6.25).volume
+        >>> less = hull.hydrostatics(draught=6.25, appendages=[tunnel.appendage]).volume
+        >>> round(bare - less - tunnel.volume, 9)
+        0.0
+        """
+        from assoc_hull.analysis.hydrostatics.tunnel import measure_tunnel
+
+        return measure_tunnel(self, name, x, z, radius)
 
     # ----------------------------------------------------------------------------------
     # Numbers of the hull as she floats.

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from typing import NoReturn
+
 import attrs
 import numpy as np
 
 from assoc_hull.errors import NoMeetingError
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState
 
-__all__ = ["half_breadth"]
+__all__ = ["half_breadth", "half_breadths"]
 
 _X, _Z = np.eye(3)[0], np.eye(3)[2]
 _APART = 1e-3
@@ -90,15 +93,65 @@ def _meet(
 def _cut(state: HullState, x: float, z: float) -> float:
     apart = state.tolerances.factor * _APART
     marks = _marks(state, z, apart)
-    low, high = (
-        (marks.xyz[0, 0], marks.xyz[-1, 0]) if len(marks.xyz) > 1 else (np.inf, -np.inf)
-    )  # fmt: skip
+    low, high = _ends(marks)
     if not low <= x <= high or _between_pieces(marks, x, apart):
-        away = max(low - x, x - high, 0.0)
-        raise NoMeetingError(f"the hull at x = {x:g}, z = {z:g} m", float(away), _ASK)
+        _refuse(x, z, low, high)
     met = intersect_planes(loft(_data(marks)), _X, np.array([x])).xyz
     ends = marks.xyz[np.abs(marks.xyz[:, 0] - x) == 0.0]
     return float(np.concatenate([met, ends])[:, 1].max())
+
+
+def half_breadths(state: HullState, x: FloatArray, z: float) -> tuple[FloatArray, FloatArray]:
+    """Give half-breadths along a waterline that is cut at a height, and their slopes along x.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    x : (n,), m
+        Places along the waterline, in any order.
+    z : float, m
+        Its height.
+
+    Returns
+    -------
+    (n,) m, (n,)
+        The largest half-breadth where there are several, and dy/dx there.
+
+    Raises
+    ------
+    NoMeetingError
+        The hull does not come to one of the places.
+    """
+    apart = state.tolerances.factor * _APART
+    marks = _marks(state, z, apart)
+    low, high = _ends(marks)
+    for each in x.tolist():
+        if not low <= each <= high or _between_pieces(marks, each, apart):
+            _refuse(each, z, low, high)
+    planes, which = np.unique(x, return_inverse=True)
+    batch = loft(_data(marks))
+    met = intersect_planes(batch, _X, planes)
+    order = np.lexsort((-met.xyz[:, 1], met.plane))
+    _, first = np.unique(met.plane[order], return_index=True)
+    if len(first) < len(planes):
+        lost = np.setdiff1d(np.arange(len(planes)), met.plane)
+        _refuse(float(planes[lost[0]]), z, low, high)
+    chosen = order[first]
+    along = derivative(batch, met.curve[chosen], met.t[chosen])
+    return met.xyz[chosen, 1][which], (along[:, 1] / along[:, 0])[which]
+
+
+def _ends(marks: _Marks) -> tuple[float, float]:
+    """Give the least and the largest x of a cut; nothing lies between them if there is none."""
+    if len(marks.xyz) < 2:
+        return np.inf, -np.inf
+    return float(marks.xyz[0, 0]), float(marks.xyz[-1, 0])
+
+
+def _refuse(x: float, z: float, low: float, high: float) -> NoReturn:
+    away = max(low - x, x - high, 0.0)
+    raise NoMeetingError(f"the hull at x = {x:g}, z = {z:g} m", float(away), _ASK)
 
 
 _ASK = "ask for a place between the ends of the hull and below the deck"

@@ -118,6 +118,7 @@ HULL: dict[str, Given] = {
     "graph": {"around": POINT, "up": 1, "down": 1, "only": "two-way", "edit": None},
     "dependencies": {"points": False},
     "half_breadth": {"x": 40.0, "z": 2.5},
+    "tunnel": {"name": "thruster", "x": 40.0, "z": 2.5, "radius": 0.5},
     "save": {"path": "no-such-folder/a.hull.json", "replace": False},
     "refresh": {},
     "close": {},

@@ -455,11 +455,13 @@ class Appendage:
     name : str
         Of the appendage.
     volume : float, m3
-        Of all of it, both sides; negative for a recess that the moulded hull encloses.
+        Of all of it, both sides; negative for a recess that the moulded hull encloses, such as a
+        `Tunnel`.
     centroid : (float, float, float), m
         x from AP, y + to port, z from the base line.
     area : float, m2
-        That it adds to the wetted surface.
+        That it adds to the wetted surface; negative where a recess opens more of the shell than
+        it has walls.
 
     Examples
     --------
@@ -471,7 +473,11 @@ class Appendage:
     name: str = attrs.field(validator=checked(text, _IN_APPENDAGE))
     volume: float = attrs.field(validator=checked(number, _IN_APPENDAGE))
     centroid: tuple[float, float, float] = attrs.field(converter=_three)
-    area: float = attrs.field(default=0.0, validator=checked(not_negative, _IN_APPENDAGE))
+    area: float = attrs.field(default=0.0, validator=checked(number, _IN_APPENDAGE))
+
+    def __attrs_post_init__(self) -> None:
+        if self.volume >= 0.0:
+            not_negative(self.area, "area", _IN_APPENDAGE)
 
     def immersed(self, planes: FloatingPlanes) -> NDArray[np.bool_]:
         """Tell below which planes its centroid lies, (d,)."""

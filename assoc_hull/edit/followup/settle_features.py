@@ -27,12 +27,12 @@ from assoc_hull.model.features import Feature
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.tables import HullState
 
-__all__ = ["settle_features"]
+__all__ = ["Hand", "affected_features", "set_by_hand", "settle_features"]
 
 _TOLD = 3
 """So many features a note names."""
 
-_Hand = set[tuple[int, int]]
+Hand = set[tuple[int, int]]
 """Points that were set by hand, each with a curve."""
 
 
@@ -66,19 +66,33 @@ def settle_features(work: Work, rows: IntArray, changed: IntArray) -> None:
     before = state.features if pending.features is None else pending.features.features
     fresh = _fresh_lines(work)
     whole = pending.structural or pending.alone
-    affected = list(range(len(before))) if whole else _affected(work, changed)
+    affected, hand = affected_features(work, rows, changed)
     if not affected and not fresh:
         return
-    hand = pending.by_hand | _moved_by_hand(work, rows)
     found = _Settling({each.key: each for each in before}, line_numbers(state))
-    for number in affected:
-        _settle(work, found, before[number], hand, whole=whole)
+    for each in affected:
+        _settle(work, found, each, hand, whole=whole)
     _find_anew(state, found, before, fresh)
     Maker(state, work.journal).features(found.kept.values())
     pending.notes += [
         *found.notes, *_told("they have lost an end", found.lost),
         *_told("their points are bent off them", found.bent),
     ]  # fmt: skip
+
+
+def affected_features(
+    work: Work, rows: IntArray, changed: IntArray
+) -> tuple[Sequence[Feature], Hand]:
+    """Give the features that an edit may have changed, and the points that were set by hand.
+
+    `rows` and `changed` are as `settle_features` takes them.
+    """
+    pending = work.pending
+    hand = pending.by_hand | _moved_by_hand(work, rows)
+    every = work.state.features if pending.features is None else pending.features.features
+    if pending.structural or pending.alone:
+        return every, hand
+    return [every[number] for number in _affected(work, changed)], hand
 
 
 def _fresh_lines(work: Work) -> set[str]:
@@ -88,7 +102,7 @@ def _fresh_lines(work: Work) -> set[str]:
     return {str(state.lines.key[state.line_of(curve)]) for curve in curves}
 
 
-def _moved_by_hand(work: Work, rows: IntArray) -> _Hand:
+def _moved_by_hand(work: Work, rows: IntArray) -> Hand:
     """Give the points that the edit itself moved, each with both its curves."""
     if work.pending.alone:
         return set()
@@ -120,13 +134,13 @@ def _find_owners(state: HullState) -> tuple[IntArray, IntArray]:
     return np.concatenate([np.zeros(0, np.int64), *points]), owner
 
 
-def _settle(work: Work, found: _Settling, old: Feature, hand: _Hand, *, whole: bool) -> None:
+def _settle(work: Work, found: _Settling, old: Feature, hand: Hand, *, whole: bool) -> None:
     """Keep a feature, as it has become, or dissolve it."""
     state = work.state
     carried = work.pending.features
     places = None if carried is None else carried.places
     new = followed_feature(state, old, found.lines, places) if whole else old
-    touched = _by_hand(state, old, hand) or (_by_hand(state, new, hand) if new else "")
+    touched = set_by_hand(state, old, hand) or (set_by_hand(state, new, hand) if new else "")
     if touched:
         found.notes.append(f"the feature {old.name!r} is dissolved: {touched} was set by hand")
     elif new is None:
@@ -153,7 +167,7 @@ def _held(state: HullState, feature: Feature, carried: CarriedFeatures | None) -
     return attrs.evolve(feature, gap=rounded_gap(state, off)) if stays else None
 
 
-def _by_hand(state: HullState, feature: Feature, hand: _Hand) -> str:
+def set_by_hand(state: HullState, feature: Feature, hand: Hand) -> str:
     """Name a point of a feature that was set by hand on its line; empty if there is none."""
     for row, curve in sorted(hand):
         if curve < 0 or row not in feature.points:

@@ -22,7 +22,7 @@ from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.plane import plane_axes
 from assoc_hull.tolerance import round_at_size
 
-__all__ = ["FeatureCircle", "fit_circle_in_plane"]
+__all__ = ["EndCircle", "FeatureCircle", "circle_on_ends", "fit_circle_in_plane"]
 
 _DIGITS = 6
 """Centre and radius are told to this digit of a metre: points that make a feature lie on it within
@@ -82,3 +82,64 @@ def fit_circle_in_plane(
         centre[1] = 0.0
     radius = round_at_size(found.radius, _DIGITS, factor)
     return FeatureCircle(centre, radius, float(off.max()), float(turn))
+
+
+@attrs.frozen(eq=False)
+class EndCircle:
+    """A circle through two given ends.
+
+    Attributes
+    ----------
+    centre : (3,), m
+    radius : float, m
+    turned : float, rad
+        How far its tangents at the ends are turned from those of before, by as much at both.
+    """
+
+    centre: FloatArray
+    radius: float
+    turned: float
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.centre)
+
+
+def circle_on_ends(
+    centre: FloatArray, normal: FloatArray, ends: FloatArray, before: FloatArray, *, side: int
+) -> EndCircle | None:
+    """Give the circle that an arc lies on when its ends have moved in its plane.
+
+    Its tangents at both ends are those of before, or where no circle has both, turned from them
+    by one angle at both ends, as little as can be.
+
+    Parameters
+    ----------
+    centre, normal : (3,), m, and (3,)
+        Of the circle before.
+    ends, before : (2, 3), m
+        The ends of the arc now and before, in the plane of the circle.
+    side : int
+        1 where the centre lies left of the arc, seen against the normal, -1 to the right.
+
+    Returns
+    -------
+    EndCircle or None
+        None where the ends have fallen together, or the arc would turn to the other side.
+    """
+    chord = ends[1] - ends[0]
+    length = float(np.sqrt((chord * chord).sum()))
+    if length == 0.0:
+        return None
+    way = chord / length
+    inward = side * np.cross(normal, way)
+    angles = list[float]()
+    for place, sign in zip(before, (1.0, -1.0), strict=True):
+        tangent = side * np.cross(centre - place, normal)
+        ahead, across = (tangent * way).sum(), (tangent * inward).sum()
+        angles.append(float(np.arctan2(-sign * across, ahead)))
+    half = 0.5 * (angles[0] + angles[1])
+    if not 0.0 < half < np.pi:
+        return None
+    radius = 0.5 * length / float(np.sin(half))
+    middle = 0.5 * (ends[0] + ends[1]) + radius * float(np.cos(half)) * inward
+    return EndCircle(middle, radius, abs(0.5 * (angles[0] - angles[1])))

@@ -314,3 +314,31 @@ def test_a_point_that_took_the_place_of_an_end_is_the_end_now(box: ah.Hull) -> N
     found = followed_feature(state, arc, numbers, {end: place})
     assert found is not None
     assert found.points == (new, *arc.points[1:])
+
+
+def test_a_feature_that_a_pull_bends_by_little_is_drawn_anew(bulk_carrier: ah.Hull) -> None:
+    """Circle and straight run, on the ends that the pull gave them, in its one step of history."""
+    first, steps = bulk_carrier.fingerprint, len(bulk_carrier.history)
+    with taken_back(bulk_carrier):
+        gone, notes = edited(
+            bulk_carrier, lambda edit: edit.pull("WL 8 x ST 1", d=0.003, radius=(15.0, 8.0))
+        )
+        assert "features drawn anew, as their points lay up to " in notes
+        assert "'ST 0.5 circle'" in notes
+        assert not gone & {"ST 0.5 circle", "BTK 0.5 straight"}
+        circle = bulk_carrier.features["ST 0.5 circle"]
+        assert circle.gap < 2e-9
+        assert len(bulk_carrier.history) == steps + 1
+        assert all_on(bulk_carrier)
+        assert (bulk_carrier.check(), bulk_carrier.verify()) == ((), ())
+    assert bulk_carrier.fingerprint == first
+
+
+def test_what_an_edit_bends_on_purpose_is_not_put_back(bulk_carrier: ah.Hull) -> None:
+    """The pulled point stays, and the feature that it is of is dissolved."""
+    with taken_back(bulk_carrier):
+        y = bulk_carrier.find("WL 2 x ST 10").y  # type: ignore[union-attr]
+        gone, _ = edited(bulk_carrier, lambda edit: edit.pull("WL 2 x ST 10", d=-0.005))
+        assert {"ST 10 arc", "WL 2 straight"} <= gone
+        after = bulk_carrier.find("WL 2 x ST 10").y  # type: ignore[union-attr]
+        assert y - after > 0.0049
