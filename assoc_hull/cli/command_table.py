@@ -189,6 +189,11 @@ GROUPS: dict[str, dict[str, Command]] = {
             "plates",
             "add_plates",
         ),
+        "report": Command(
+            "write all that is known of a hull as one PDF, or its tables as a workbook",
+            "report",
+            "add_report",
+        ),
         "export": Command(
             "write lines, surfaces or meshes for other programs",
             "export",
@@ -258,6 +263,10 @@ SYNONYMS = {
     "dxf": "export",
     "convert": "export",
     "write": "export",
+    "booklet": "report",
+    "book": "report",
+    "pdf": "report",
+    "document": "report",
     "scale": "vary",
     "lackenby": "shift",
     "lengthen": "jumboise",

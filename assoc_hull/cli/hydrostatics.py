@@ -167,7 +167,7 @@ def _shares(table: HydrostaticTable) -> Iterator[str]:
 # --------------------------------------------------------------------------------------
 # The command that tells how a hull floats.
 
-_TABLES = (".csv", ".xlsx")
+_TABLES = (".csv", ".xlsx", ".pdf")
 _PICTURES = ("curves", "areas", "bonjean")
 
 
@@ -179,6 +179,7 @@ def add_hydrostatics(commands: Commands) -> None:
         """assoc-hull hydrostatics ship.hull --draught 18
         assoc-hull hydrostatics ship.hull --draughts 18.5 17.5 --heel 5 --kg 11.2 --json
         assoc-hull hydrostatics ship.hull --table 4:18:1 --trims -1 0 1 -o table.xlsx
+        assoc-hull hydrostatics ship.hull --table 4:18:1 -o table.pdf
         assoc-hull hydrostatics ship.hull --table 4:18:1 --water fresh --plot curves.pdf
         assoc-hull hydrostatics ship.hull --weight 150000 --lcg 148 --kg 11
         assoc-hull hydrostatics demihull.hull --draught 2.1 --demihulls 2 --separation 8.4
@@ -232,7 +233,7 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="neither estimate how far values may be off, nor compare numbers by other routes",
     )
-    parser.add_argument("-o", "--out", type=Path, metavar="FILE", help="a .csv or .xlsx file")
+    parser.add_argument("-o", "--out", type=Path, metavar="FILE", help="a .csv, .xlsx or .pdf file")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="a .pdf, .svg or .png file")
     parser.add_argument(
         "--plot-of", choices=_PICTURES,
@@ -347,9 +348,14 @@ def _saved(hull: Hull, table: HydrostaticTable, arguments: argparse.Namespace) -
     """Write table and picture, where they were asked; name the files."""
     saved: list[Any] = []
     if arguments.out is not None:
-        from assoc_hull.io.tables.hydrostatics import write_hydrostatic_table
+        if arguments.out.suffix.lower() == ".pdf":
+            from assoc_hull.plot.booklet.write import write_hydrostatic_book
 
-        write_hydrostatic_table(table, arguments.out)
+            write_hydrostatic_book(hull, table, arguments.out)
+        else:
+            from assoc_hull.io.tables.hydrostatics import write_hydrostatic_table
+
+            write_hydrostatic_table(table, arguments.out)
         saved.append(arguments.out)
     if arguments.plot is not None:
         from assoc_hull.plot.diagrams.hydrostatics import plot_hydrostatics

@@ -18,6 +18,7 @@ from assoc_hull.errors import BadInputError
 if TYPE_CHECKING:
     from assoc_hull.hull.results import HullPlates, Plates
     from assoc_hull.io.surfaces.surface_file import ReadSurfaces
+    from assoc_hull.surface.plating.hull_seams import HullSeams
 
 __all__ = [
     "add_plates",
@@ -25,6 +26,7 @@ __all__ = [
     "hull_plates",
     "is_hull",
     "refuse_seams",
+    "seams_of",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -72,6 +74,17 @@ def _places(words: str) -> list[float]:
     return [low + step * k for k in range(int((high - low) / step + 1e-9) + 1)]
 
 
+def seams_of(arguments: argparse.Namespace) -> HullSeams | None:
+    """Give the seams that are named; None where nothing is."""
+    from assoc_hull.surface.plating.hull_seams import HullSeams
+
+    x, z, girth = (
+        tuple(place for each in given for place in each)
+        for given in (arguments.butts, arguments.seams_z, arguments.seams_girth)
+    )
+    return HullSeams(x, z, girth, arguments.inside) if x or z or girth else None
+
+
 def is_hull(path: Path) -> bool:
     """Tell whether a file is meant as a hull, by its ending.
 
@@ -104,18 +117,18 @@ def hull_plates(arguments: argparse.Namespace) -> int:
     from assoc_hull.hull.sources import open as open_hull
     from assoc_hull.io.tables.hull_plates import hull_plates_document
 
-    _refuse_others(arguments)
+    seams = _require_seams(arguments)
     hull = open_hull(arguments.file)
     with progress("fitting the surface, finding regions"):
-        found = _found(hull, arguments)
+        found = _found(hull, seams, arguments)
     saved = _saved(found, arguments)
     words = [str(found), *(f"written: {each}" for each in saved)]
     emit(arguments, {**hull_plates_document(found), "saved": saved}, "\n".join(words))
     return 0
 
 
-def _refuse_others(arguments: argparse.Namespace) -> None:
-    """Refuse what goes with surfaces only, and a hull that nothing cuts."""
+def _require_seams(arguments: argparse.Namespace) -> HullSeams:
+    """Give the seams; refuse what goes with surfaces only, and a hull that nothing cuts."""
     for name in _OF_SURFACES:
         if getattr(arguments, name):
             option = name.replace("_", "-")
@@ -123,27 +136,24 @@ def _refuse_others(arguments: argparse.Namespace) -> None:
     if arguments.zero == "exact" or arguments.breadth == "own":
         what = "--zero exact" if arguments.zero == "exact" else "--breadth own"
         raise UsageError(f"{what} does not go with a hull: all its plates share one band")
-    if not (arguments.butts or arguments.seams_z or arguments.seams_girth):
+    seams = seams_of(arguments)
+    if seams is None:
         raise UsageError(
             "nothing cuts the hull into plates; give --butts, --seams-z or --seams-girth"
         )
+    return seams
 
 
-def _found(hull: Any, arguments: argparse.Namespace) -> HullPlates:
+def _found(hull: Any, seams: HullSeams, arguments: argparse.Namespace) -> HullPlates:
     """Find the plates, by the options that are given."""
     from assoc_hull.hull.results import plates
-    from assoc_hull.surface.plating.hull_seams import HullSeams
 
-    x, z, girth = (
-        tuple(place for each in given for place in each)
-        for given in (arguments.butts, arguments.seams_z, arguments.seams_girth)
-    )
     names = ("strain_tol", "k0", "share", "sagitta_tol", "breadth")
     given: dict[str, Any] = {name: getattr(arguments, name) for name in names}
     options = {name: value for name, value in given.items() if value is not None}
     if arguments.one_fit:
         options["others"] = ()
-    return plates(hull, HullSeams(x, z, girth, arguments.inside), zero=arguments.zero, **options)
+    return plates(hull, seams, zero=arguments.zero, **options)
 
 
 def _saved(found: HullPlates, arguments: argparse.Namespace) -> list[str]:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.stability.flooding import FloodingPoint
     from assoc_hull.analysis.stability.stability_report import Stability
 
-__all__ = ["add_stability"]
+__all__ = ["add_flooding", "add_stability", "opening"]
 
 _FILES = (".txt", ".csv", ".xlsx", ".json")
 _CALL = "in the call"
@@ -75,6 +75,11 @@ def _add_condition(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--heels", metavar="FROM:TO:STEP", help="of the table, degrees, + starboard down"
     )
+    add_flooding(parser)
+
+
+def add_flooding(parser: argparse.ArgumentParser) -> None:
+    """Add openings through which water comes in."""
     parser.add_argument(
         "--flooding", action="append", default=[], metavar="NAME,X,Y,Z",
         help="an opening, on both sides, m; may be given again",
@@ -160,7 +165,7 @@ def _condition(hull: Hull, arguments: argparse.Namespace) -> Stability:
         hull, weight=arguments.weight, draught=arguments.draught,
         draughts=None if arguments.draughts is None else tuple(arguments.draughts),
         lcg=arguments.lcg, tcg=arguments.tcg or 0.0,
-        flooding=tuple(map(_opening, arguments.flooding)), **_table(arguments),
+        flooding=tuple(map(opening, arguments.flooding)), **_table(arguments),
     )  # fmt: skip
 
 
@@ -196,7 +201,7 @@ def _rest(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _opening(text: str) -> FloodingPoint:
+def opening(text: str) -> FloodingPoint:
     """Take an opening, ``NAME,X,Y,Z``."""
     from assoc_hull.analysis.stability.flooding import FloodingPoint
 

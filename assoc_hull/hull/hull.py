@@ -96,6 +96,7 @@ if TYPE_CHECKING:
     from assoc_hull.model.form_definition import FormDefinition
     from assoc_hull.model.objects import FeatureHandle
     from assoc_hull.model.tables import HasState
+    from assoc_hull.plot.booklet.parts import PartName
     from assoc_hull.surface.blocks.fitted_surface import FittedSurface
     from assoc_hull.surface.cells.closed_mesh import ClosedMesh
     from assoc_hull.surface.plating.hull_seams import HullSeams
@@ -2791,6 +2792,85 @@ features
         return export_file(
             self, path, form, unit, scale=scale, half=half, points=points, accept=accept
         )
+
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        parts: Iterable[PartName] | PartName | None = None,
+        *,
+        draught: float | None = None,
+        draughts: Sequence[float] | None = None,
+        kg: float | None = None,
+        flooding: Iterable[FloodingPoint] = (),
+        rho: float = 1.025,
+        shell_factor: float = 1.0,
+        appendages: Iterable[Appendage] = (),
+        on_error: OnError = "refuse",
+        surface: FittedSurface | None = None,
+        plates: HullPlates | None = None,
+        title: str = "Hull report",
+        date: str | None = None,
+    ) -> tuple[str, ...]:
+        """Write one document with all that is known of the hull, numbered, with its contents.
+
+        Parameters
+        ----------
+        path : path
+            ``.pdf``: title page, contents, then the parts, tables on upright A4 and pictures on A3.
+            ``.xlsx``: the same tables. What was there is replaced by the whole of it, or stays.
+        parts : names, or None
+            Of "lines", "hydrostatics", "bonjean", "areas", "form", "stability", "surface",
+            "plates", "accuracy" (error bars and findings); all that can be made if None.
+        draught : float, m
+            At even keel: of the title page, sectional areas, form parameters and stability; the
+            design draught if None.
+        draughts : (n,), m
+            Of hydrostatics and cross curves, rising; round ones around `draught` if None.
+        kg : float or None, m
+            Centre of gravity above the base line. Without it no criterion of stability is
+            evaluated, and each says so.
+        flooding, rho, shell_factor, appendages, on_error
+            As for `stability`.
+        surface : HullSurface or None
+            What `Hull.surface` gave; without it there is no such part.
+        plates : HullPlates or None
+            What `Hull.plates` gave; without it there is no such part.
+        title : str
+            Of the document.
+        date : str or None
+            In words. The same hull gives the same bytes at any time: none stands in it unless it
+            is given here.
+
+        Returns
+        -------
+        tuple of str
+            The parts that were written.
+
+        Raises
+        ------
+        BadInputError, OutOfRangeError
+            Another ending, a part that is none, a surface or plates asked for and not given, a file
+            that cannot be written, draughts at which she does not float, a doubtful hull.
+        MissingExtraError
+            No matplotlib for a PDF, no openpyxl for a workbook.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley(stations=9, waterlines=6)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     hull.report(Path(folder) / "ship.pdf", parts=["lines", "areas"])
+        ('lines', 'areas')
+        """
+        from assoc_hull.plot.booklet.write import write_booklet
+
+        return write_booklet(
+            self, path, parts, draught=draught, draughts=draughts, kg=kg, flooding=flooding,
+            rho=rho, shell_factor=shell_factor, appendages=appendages, on_error=on_error,
+            surface=surface, plates=plates, adoption=self.adoption, title=title, date=date,
+        )  # fmt: skip
 
     def refresh(self) -> None:
         """Take over what another process has committed to the hull file since."""

@@ -127,6 +127,10 @@ HULL: dict[str, Given] = {
     "go": {"name": "nowhere"},
     "diff": {"before": "nowhere", "after": None},
     "replay": {"other": None, "skip": False},
+    "report": {"path": "no-such-folder/a.xlsx", "parts": ("areas",), "draught": 4.0,
+               "draughts": (4.0, 5.0), "kg": 4.0, "flooding": (), "rho": 1.0, "shell_factor": 1.0,
+               "appendages": (), "on_error": "refuse", "surface": None, "plates": None,
+               "title": "t", "date": None},
     "export": {"path": "no-such-folder/a.dxf", "form": None, "unit": None,
                "scale": None, "half": False, "points": None, "accept": False},
 }  # fmt: skip

@@ -10,7 +10,7 @@ import attrs
 
 from assoc_hull.analysis.stability.lever_curve import LeverCurve
 
-__all__ = ["CriteriaInput", "Criterion", "intact_criteria"]
+__all__ = ["CriteriaInput", "Criterion", "intact_criteria", "unjudged_criteria"]
 
 _M, _MRAD, _DEG = "m", "m rad", "deg"
 _NO_POINT = "phi_f not given, 40 used"
@@ -110,6 +110,25 @@ class CriteriaInput:
         return f"phi_f {self.flooding_deg:.2f} deg"
 
 
+_UNJUDGED = tuple(
+    Criterion(code, name, least, unit, None)
+    for code, name, least, unit in (
+        ("2.2.1", "area under GZ from 0 to 30 deg", 0.055, _MRAD),
+        ("2.2.1", "area under GZ from 0 to 40 deg or phi_f", 0.090, _MRAD),
+        ("2.2.1", "area under GZ from 30 to 40 deg or phi_f", 0.030, _MRAD),
+        ("2.2.2", "largest GZ at 30 deg or more", 0.2, _M),
+        ("2.2.3", "heel of the largest GZ", 25.0, _DEG),
+        ("2.2.4", "initial metacentric height", 0.15, _M),
+        ("2.3", "severe wind and rolling", None, ""),
+    )
+)
+
+
+def unjudged_criteria(why: str) -> tuple[Criterion, ...]:
+    """List all criteria as not evaluated, for a reason."""
+    return tuple(attrs.evolve(each, note=why) for each in _UNJUDGED)
+
+
 def intact_criteria(judged: CriteriaInput) -> tuple[Criterion, ...]:
     """Evaluate the criteria of 2.2, and list that of 2.3.
 
@@ -124,20 +143,21 @@ def intact_criteria(judged: CriteriaInput) -> tuple[Criterion, ...]:
         Six that are evaluated where the curve goes far enough, and the weather criterion.
     """
     limit = judged.limit
+    first, second, third, lever, angle, height, weather = _UNJUDGED
     return (
-        _area(judged, "area under GZ from 0 to 30 deg", (0.0, 30.0), 0.055),
-        _area(judged, "area under GZ from 0 to 40 deg or phi_f", (0.0, limit), 0.090),
-        _area(judged, "area under GZ from 30 to 40 deg or phi_f", (30.0, limit), 0.030),
-        _lever(judged),
-        _angle(judged),
-        Criterion("2.2.4", "initial metacentric height", 0.15, _M, judged.curve.gm),
-        Criterion("2.3", "severe wind and rolling", None, "", None, _WEATHER),
+        _area(judged, first, (0.0, 30.0)),
+        _area(judged, second, (0.0, limit)),
+        _area(judged, third, (30.0, limit)),
+        _lever(judged, lever),
+        _angle(judged, angle),
+        attrs.evolve(height, value=judged.curve.gm),
+        attrs.evolve(weather, note=_WEATHER),
     )
 
 
-def _area(judged: CriteriaInput, name: str, span: tuple[float, float], least: float) -> Criterion:
+def _area(judged: CriteriaInput, asked: Criterion, span: tuple[float, float]) -> Criterion:
     """Judge the area between two heels, or to where water comes in before the second."""
-    made = Criterion("2.2.1", name, least, _MRAD, None, judged.about_flooding)
+    made = attrs.evolve(asked, note=judged.about_flooding)
     low, high = span[0], min(span[1], judged.limit)
     if judged.curve.end < high - _ROUNDING:
         return attrs.evolve(made, note=judged.end)
@@ -148,22 +168,21 @@ def _area(judged: CriteriaInput, name: str, span: tuple[float, float], least: fl
     return attrs.evolve(made, value=value, note="" if plain else made.note)
 
 
-def _lever(judged: CriteriaInput) -> Criterion:
+def _lever(judged: CriteriaInput, asked: Criterion) -> Criterion:
     """Judge the largest lever at 30 degrees or more."""
-    code, name = "2.2.2", "largest GZ at 30 deg or more"
     if judged.curve.end < 30.0 - _ROUNDING:
-        return Criterion(code, name, 0.2, _M, None, judged.end)
+        return attrs.evolve(asked, note=judged.end)
     gz, heel = judged.curve.most(30.0)
-    return Criterion(code, name, 0.2, _M, gz, f"at {heel:.2f} deg")
+    return attrs.evolve(asked, value=gz, note=f"at {heel:.2f} deg")
 
 
-def _angle(judged: CriteriaInput) -> Criterion:
+def _angle(judged: CriteriaInput, asked: Criterion) -> Criterion:
     """Judge the heel of the largest lever."""
-    code, name, least = "2.2.3", "heel of the largest GZ", 25.0
     gz, heel = judged.curve.largest
     if gz <= 0.0:
-        return Criterion(code, name, least, _DEG, None, "GZ is nowhere above 0")
+        return attrs.evolve(asked, note="GZ is nowhere above 0")
     if heel < judged.curve.end - _ROUNDING:
-        return Criterion(code, name, least, _DEG, heel)
+        return attrs.evolve(asked, value=heel)
     note = f"GZ still rises at the end of the curve; {judged.end}"
-    return Criterion(code, name, least, _DEG, heel if heel >= least else None, note)
+    least = asked.required or 0.0
+    return attrs.evolve(asked, value=heel if heel >= least else None, note=note)

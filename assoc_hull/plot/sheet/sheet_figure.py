@@ -28,6 +28,7 @@ __all__ = [
     "Path_",
     "Sheet",
     "pdf_of",
+    "pdf_of_figures",
     "require_matplotlib",
     "save",
 ]
@@ -272,16 +273,21 @@ def pdf_of(sheets: Iterable[Sheet], title: str) -> bytes:
     >>> pdf_of([Sheet("A4"), Sheet("A4")], "two pages")[:5]
     b'%PDF-'
     """
+    return pdf_of_figures((sheet.figure for sheet in sheets), title)
+
+
+def pdf_of_figures(figures: Iterable[Figure], title: str, date: str | None = None) -> bytes:
+    """Give figures as the pages of a PDF; see `pdf_of`. Its date is kept as a subject, in words."""
     require_matplotlib()
     import matplotlib
     from matplotlib.backends.backend_pdf import PdfPages
 
     out = io.BytesIO()
-    about = {"CreationDate": None, "Title": title}
+    about = {"CreationDate": None, "Title": title} | ({} if date is None else {"Subject": date})
     with (
         matplotlib.rc_context({"pdf.fonttype": 42, "savefig.bbox": None}),
         PdfPages(out, metadata=about) as pages,
     ):
-        for sheet in sheets:
-            pages.savefig(sheet.figure)
+        for figure in figures:
+            pages.savefig(figure)
     return out.getvalue()

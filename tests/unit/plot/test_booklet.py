@@ -1,0 +1,161 @@
+"""The booklet: one PDF with all that is known of a hull, or its tables in one workbook."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import openpyxl
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.cli import main
+from assoc_hull.errors import BadInputError
+from assoc_hull.plot.booklet.pages import book_pages
+from assoc_hull.plot.booklet.parts import PARTS, BookPart, BookRequest, parts_of
+
+
+@pytest.fixture(scope="module")
+def hull() -> ah.Hull:
+    """Give a small ship."""
+    return ah.examples.wigley(stations=9, waterlines=6)
+
+
+def made(hull: ah.Hull, *names: str, kg: float | None = None) -> tuple[BookPart, ...]:
+    """Compute parts."""
+    asked = BookRequest(
+        names, (3.0, 4.0, 5.0), 4.0, kg, (), 1.025, 1.0, (), "refuse", None, None, None, None
+    )
+    return parts_of(hull, asked)[0]
+
+
+def words_of(hull: ah.Hull, *names: str, kg: float | None = None) -> list[str]:
+    """Give all that is written on the pages."""
+    asked = BookRequest(
+        names, (3.0, 4.0, 5.0), 4.0, kg, (), 1.025, 1.0, (), "refuse", None, None, None, None
+    )
+    parts, design = parts_of(hull, asked)
+    pages = book_pages(hull, parts, design, "Hull report")
+    return [
+        " ".join(text.get_text() for text in [*page.texts, *page.axes[0].texts]) for page in pages
+    ]
+
+
+def test_one_document_holds_title_contents_numbered_parts_and_fingerprint(hull: ah.Hull) -> None:
+    """Every page has its number; the contents name the page on which each part begins."""
+    pages = words_of(hull, "lines", "hydrostatics", "areas")
+    count = len(pages)
+    assert all(f"{k} / {count}" in page for k, page in enumerate(pages, 1))
+    assert "Hull report" in pages[0]
+    assert hull.fingerprint in pages[0]
+    assert "Length between perpendiculars" in pages[0]
+    for title in ("Lines plan", "Hydrostatics", "Sectional areas"):
+        told = re.search(rf"{title} (\d+)", pages[1])
+        assert told is not None, title
+    where = re.search(r"Sectional areas (\d+)", pages[1])
+    assert where is not None
+    assert "Sectional areas" in pages[int(where[1]) - 1]
+
+
+def test_a_criterion_that_is_not_evaluated_is_never_passed(hull: ah.Hull) -> None:
+    """Without KG none of the seven is evaluated; with it the weather criterion is not."""
+    (without,) = made(hull, "stability")
+    criteria = without.tables[0]
+    assert [row[5] for row in criteria.rows] == ["not evaluated"] * 7
+    assert {row[6] for row in criteria.rows} == {"KG was not given"}
+    (judged,) = made(hull, "stability", kg=4.0)
+    results = {row[0]: row[5] for row in judged.tables[0].rows}
+    assert results["2.3"] == "not evaluated"
+    assert set(results.values()) <= {"passed", "FAILED", "not evaluated"}
+    found = hull.stability(kg=4.0, draught=4.0)
+    assert [row[5] == "passed" for row in judged.tables[0].rows] == [
+        each.passed is True for each in found.criteria
+    ]
+
+
+def test_numbers_of_the_booklet_are_those_of_the_methods(hull: ah.Hull) -> None:
+    """The tables hold what `hydrostatics` and `sectional areas` give, unrounded."""
+    floats, areas = made(hull, "hydrostatics", "areas")
+    names = [each.name for each in floats.tables[0].columns]
+    volume = [row[names.index("∇")] for row in floats.tables[0].rows]
+    assert volume == hull.hydrostatic_table([3.0, 4.0, 5.0]).columns["volume"].tolist()
+    assert len(areas.tables[0].rows) == len(hull.bonjean(3).stations.x)
+
+
+def test_the_same_hull_gives_the_same_bytes_unless_a_date_is_given(
+    hull: ah.Hull, tmp_path: Path
+) -> None:
+    """No time stands in PDF or workbook; a date in words does, where it is given."""
+    for ending in (".pdf", ".xlsx"):
+        first, second = tmp_path / f"a{ending}", tmp_path / f"b{ending}"
+        for path in (first, second):
+            assert hull.report(path, "areas") == ("areas",)
+        assert first.read_bytes() == second.read_bytes()
+        hull.report(second, ["areas"], date="28 November")
+        assert first.read_bytes() != second.read_bytes()
+    dated = (tmp_path / "b.pdf").read_bytes()
+    assert b"CreationDate" not in dated
+    assert b"(28 November)" in dated
+
+
+def test_a_workbook_has_a_sheet_for_each_table(hull: ah.Hull, tmp_path: Path) -> None:
+    """The sheets hold whole numbers below names and units; the first one lists them."""
+    path = tmp_path / "ship.xlsx"
+    hull.report(path, ["hydrostatics", "areas"], draughts=[4.0, 5.0])
+    book = openpyxl.load_workbook(path)
+    assert book.sheetnames[:2] == ["contents", "Hydrostatics"]
+    page = book["Hydrostatics"]
+    assert (page["A2"].value, page["A3"].value) == ("T_A", "m")
+    names = [cell.value for cell in page[2]]
+    volume = page.cell(4, names.index("∇") + 1).value
+    # A workbook keeps 16 digits.
+    assert volume == pytest.approx(hull.hydrostatic_table([4.0, 5.0])[0].volume, rel=1e-15)
+    listed = [row[1].value for row in book["contents"].iter_rows()]
+    assert any(hull.fingerprint in str(each) for each in listed)
+
+
+def test_all_parts_that_can_be_made_are_written_by_default(hull: ah.Hull, tmp_path: Path) -> None:
+    """Surface and plates stand in it where they are given, and not otherwise."""
+    written = hull.report(tmp_path / "ship.xlsx", draughts=[4.0, 5.0], draught=4.0)
+    assert written == tuple(each for each in PARTS if each not in ("surface", "plates"))
+    with_surface = hull.report(
+        tmp_path / "ship.xlsx", ["surface", "areas"], draught=4.0, surface=hull.surface()
+    )
+    assert with_surface == ("areas", "surface")
+
+
+@pytest.mark.parametrize(
+    ("path", "parts", "words"),
+    [
+        ("ship.txt", None, "end the name in .pdf or .xlsx"),
+        ("ship.pdf", ["lines", "engine"], "lines"),
+        ("ship.pdf", ["surface"], "give surface="),
+        ("ship.pdf", [], "no part is named"),
+    ],
+    ids=["another ending", "no such part", "a surface that is not given", "no parts"],
+)
+def test_what_cannot_be_written_is_refused_before_any_work(
+    hull: ah.Hull, tmp_path: Path, path: str, parts: list[str] | None, words: str
+) -> None:
+    """The message says what to give; no file is left."""
+    with pytest.raises(BadInputError, match=re.escape(words)):
+        hull.report(tmp_path / path, parts)  # type: ignore[arg-type]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_writes_chosen_parts_and_hydrostatics_alone(
+    hull: ah.Hull, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """`report` names the parts it wrote; `hydrostatics -o x.pdf` is a PDF of that table."""
+    ship = tmp_path / "ship.hull.json"
+    hull.save(ship)
+    out = tmp_path / "ship.pdf"
+    assert main(["report", str(ship), str(out), "--parts", "areas", "--draught", "4"]) == 0
+    assert "written:" in capsys.readouterr().out
+    assert out.read_bytes()[:5] == b"%PDF-"
+    alone = tmp_path / "table.pdf"
+    given = ["hydrostatics", str(ship), "--table", "3:5:1", "-o", str(alone), "--no-estimate"]
+    assert main(given) == 0
+    assert alone.read_bytes()[:5] == b"%PDF-"
+    assert main(["report", str(ship), str(out), "--parts", "plates"]) == 2
+    assert "--butts" in capsys.readouterr().err
