@@ -143,6 +143,7 @@ _PUBLIC: dict[str, dict[str, tuple[str, ...]]] = {
     "creation": {
         "creation.design": ("Design",),
         "creation.form_curve": ("FormCurve",),
+        "creation.six_numbers": ("DesignNote",),
         "creation.form_definitions": (
             "course",
             "design_waterline",

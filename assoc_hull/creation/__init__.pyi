@@ -5,6 +5,7 @@ from assoc_hull.creation.form_curve import FormCurve as FormCurve
 from assoc_hull.creation.form_definitions import course as course
 from assoc_hull.creation.form_definitions import design_waterline as design_waterline
 from assoc_hull.creation.form_definitions import sectional_area as sectional_area
+from assoc_hull.creation.six_numbers import DesignNote as DesignNote
 from assoc_hull.hull.sources import create as create
 from assoc_hull.hull.sources import read_classical as read_classical
 from assoc_hull.model.form_definition import FormDefinition as FormDefinition

@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.stability.righting_lever import TrimRule
     from assoc_hull.analysis.stability.stability_report import Stability
     from assoc_hull.creation.creation_report import CreationReport
+    from assoc_hull.creation.six_numbers import DesignNote
     from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
     from assoc_hull.edit.checks.finding import Finding
     from assoc_hull.edit.dirty_objects import Dirty
@@ -112,13 +113,17 @@ __all__ = ["Hull"]
 
 
 class Hull:
-    """A ship hull form, with its history; `adoption` tells how it was made of lines, if here."""
+    """A ship hull form, with its history; `adoption` tells how it was made of lines, if here.
+
+    `notes` tells where the values of a ship from six numbers come from (`ah.create`).
+    """
 
     def __init__(self, state: HullState | Document) -> None:
         if not isinstance(state, Document):
             state = Document(instance(state, HullState, "state", "in Hull"))
         self.document = state
         self.adoption: AdoptionReport | None = None
+        self.notes: tuple[DesignNote, ...] = ()
 
     @classmethod
     def from_lines(
@@ -441,7 +446,7 @@ class Hull:
         True
         """
         found = type(self)(self.document.state.snapshot())
-        found.adoption = self.adoption
+        found.adoption, found.notes = self.adoption, self.notes
         return found
 
     def since(self, number: int) -> Changed:

@@ -15,12 +15,23 @@ from typing import TYPE_CHECKING
 
 import attrs
 
-from assoc_hull.arguments import file_path, flag, instance, not_negative, regular_file
+from assoc_hull.arguments import (
+    file_path,
+    flag,
+    instance,
+    not_negative,
+    number,
+    positive,
+    regular_file,
+    text,
+)
+from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.hull.hull import Hull
 
 if TYPE_CHECKING:
     from assoc_hull.creation.classical.classical_net import ClassicalDefinition
     from assoc_hull.creation.design import Design
+    from assoc_hull.creation.six_numbers import SixNumbers, TypedDesign
     from assoc_hull.geometry.patches.spline_surface import SplineSurface
     from assoc_hull.io.importing.import_hull import ImportReport
     from assoc_hull.io.slicing.cut_planes import Places
@@ -122,8 +133,23 @@ def _classical(name: str) -> Hull:
 examples = Examples()
 
 
-def create(design: Design | ClassicalDefinition) -> Hull:
-    """Create a hull from a design, by form parameters, or from a classical definition.
+def create(
+    design: Design | ClassicalDefinition | None = None,
+    *,
+    length: float | None = None,
+    breadth: float | None = None,
+    draught: float | None = None,
+    depth: float | None = None,
+    cb: float | None = None,
+    lcb: float | None = None,
+    lcb_percent: float | None = None,
+    type: str = "bulk carrier",
+    cm: float | None = None,
+    bilge_radius: float | None = None,
+    cw: float | None = None,
+    name: str | None = None,
+) -> Hull:
+    """Create a hull from a design, from six numbers, or from a classical definition.
 
     Of a classical definition (`read_classical`) the net is made: its sections and boundary lines
     adopted, waterlines and buttocks cut; ``definition.report(hull.state)`` sets both side by side.
@@ -133,10 +159,33 @@ def create(design: Design | ClassicalDefinition) -> Hull:
     net beside them. S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter
     Method", Trans. SNAK 29(2), 1992.
 
+    Of six numbers and a type, a design of the type is carried to these dimensions and its curve of
+    areas is swung to `cb` and `lcb`; the net has both by its own hydrostatics. ``hull.notes``
+    tells where each other value comes from.
+
     Parameters
     ----------
-    design : Design or definition
+    design : Design, definition or None
         Particulars, definitions, and where lines are to stand; or what `read_classical` gives.
+        None for a ship from six numbers, which are given by name.
+    length : float, m
+        Between perpendiculars.
+    breadth, draught, depth : float, m
+        Moulded; `depth` to the deck edge amidships, all heights from the base line.
+    cb : float
+        Block coefficient, on the length between perpendiculars.
+    lcb, lcb_percent : float, m and % of the length
+        Centre of buoyancy from midship, forward positive; one of them.
+    type : str
+        ``"bulk carrier"``, ``"tanker"``, ``"container ship"``, ``"general cargo"`` or ``"ro-ro"``.
+    cm : float or None
+        Midship section coefficient; by a formula if neither it nor `bilge_radius` is given.
+    bilge_radius : float or None, m
+        In the place of `cm`.
+    cw : float or None
+        Waterplane coefficient between the ends of the design waterline.
+    name : str or None
+        Of the ship; its type and length if None.
 
     Returns
     -------
@@ -146,17 +195,45 @@ def create(design: Design | ClassicalDefinition) -> Hull:
     ------
     BadInputError, OutOfRangeError
         Definitions of which no section can be made at a station: station, what is wanted and
-        what can be are named.
+        what can be are named. Of six numbers: one is missing, or far out of the range of the type;
+        `cb` and `lcb` fight, and the error tells what each may be beside the other; a type that
+        cannot be made well.
     GeometryError
         A classical definition of which no line can be made.
     RefusedEditError
         A waterline or a buttock that cannot be cut fairly; the error names it.
+    UnknownNameError
+        Of a type.
+
+    References
+    ----------
+    S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK 29(2),
+    1992. The formulas of other values are in ``hull.notes``.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> hull = ah.create(
+    ...     length=100.0, breadth=16.0, draught=6.5, depth=9.0, cb=0.70, lcb=0.0,
+    ...     type="general cargo",
+    ... )
+    >>> round(hull.hydrostatics().cb, 5)
+    0.7
     """
     from assoc_hull.creation.classical.classical_net import classical_net
     from assoc_hull.creation.design import Design
     from assoc_hull.creation.design_net import build_net
     from assoc_hull.io.classical.read import is_definition
 
+    six = {"length": length, "breadth": breadth, "draught": draught, "depth": depth, "cb": cb}
+    given = {"cm": cm, "bilge_radius": bilge_radius, "cw": cw}
+    if design is None:
+        return _from_six(type, six, lcb, lcb_percent, given, name)
+    more = {**six, "lcb": lcb, "lcb_percent": lcb_percent, **given, "name": name}
+    for word, value in more.items():
+        if value is not None:
+            what = f"{word} is given beside a design"
+            raise BadInputError(what, "in create", "leave one out; a design has its own numbers")
     if is_definition(design):
         state, report = classical_net(design)
     else:
@@ -164,6 +241,75 @@ def create(design: Design | ClassicalDefinition) -> Hull:
     hull = Hull(state)
     hull.adoption = report
     return hull
+
+
+def _from_six(
+    kind: str, six: dict[str, float | None], lcb: float | None, percent: float | None,
+    given: dict[str, float | None], name: str | None,
+) -> Hull:  # fmt: skip
+    """Create a hull from six numbers, its net closed to CB and LCB."""
+    from assoc_hull.creation.six_numbers import SixNumbers, design_for
+    from assoc_hull.creation.six_numbers_net import build_typed
+    from assoc_hull.shipped.ship_types import ship_type
+
+    where = "in a ship from six numbers"
+    missing = [word for word, value in six.items() if value is None]
+    if lcb is None and percent is None:
+        missing.append("lcb")
+    if missing:
+        raise BadInputError(f"{', '.join(missing)} is missing", where, "give it, or a design")
+    if lcb is not None and percent is not None:
+        raise BadInputError("lcb and lcb_percent are both given", where, "leave one out")
+    numbers = {word: positive(value, word, where) for word, value in six.items()}
+    if percent is not None:
+        lcb = 0.01 * number(percent, "lcb_percent", where) * numbers["length"]
+    asked = SixNumbers(**numbers, lcb=number(lcb, "lcb", where))
+    known = {word: None if v is None else positive(v, word, where) for word, v in given.items()}
+    title = None if name is None else text(name, "name", where)
+    typed = design_for(ship_type(text(kind, "type", where)), asked, **known, name=title)
+    state, report, typed = build_typed(typed)
+    hull, typed = _closed(Hull(state), asked, typed)
+    hull.adoption, hull.notes = report, typed.notes
+    return hull
+
+
+_CLOSE = 2e-7
+"""CB, and LCB in parts of the length, are met within this."""
+
+
+def _closed(hull: Hull, asked: SixNumbers, typed: TypedDesign) -> tuple[Hull, TypedDesign]:
+    """Give the hull with curves of areas by which its net has CB and LCB, without history.
+
+    The net has parts beyond the ends of the curve of areas, and is a spline between stations: so
+    CB and LCB as measured are not those of the curve, by some thousandths.
+    """
+    from assoc_hull.creation.six_numbers import with_areas
+    from assoc_hull.creation.six_numbers_net import build_typed
+    from assoc_hull.model.forms.closure import coefficients
+
+    design = typed.design
+    for _ in range(4):
+        found = hull.hydrostatics()
+        more = asked.cb - found.cb
+        ahead = asked.lcb - (found.lcb - 0.5 * asked.length)
+        if max(abs(more), abs(ahead) / asked.length) <= _CLOSE:
+            break
+        now = coefficients(design.definition("sectional_area"), design.particulars)
+        assert now.block is not None
+        areas = with_areas(design, now.block + more, now.centroid + ahead)
+        design = design.having(areas)
+        try:
+            with hull.edit("close CB and LCB") as edit:
+                edit.set_form(
+                    areas.name, run_area=areas.value("run_area"),
+                    entrance_area=areas.value("entrance_area"),
+                )  # fmt: skip
+        except (BadInputError, RefusedEditError):
+            # A net that does not follow is made anew.
+            state, _, typed = build_typed(attrs.evolve(typed, design=design))
+            hull = Hull(state)
+            design = typed.design
+    return Hull(hull.state), typed
 
 
 def open(path: str | os.PathLike[str], *, wait: float = 0.0, damaged: bool = False) -> Hull:

@@ -1,0 +1,223 @@
+"""Swing a curve of sectional areas to a prismatic coefficient and a centre of buoyancy.
+
+The ends of the parallel part move, and each half keeps the fullness and the centroid that it has,
+in parts of its own length; that is a quadratic equation. Where the halves would overlap, or one of
+them would be too short for a ship, the parallel part stays and the fullness of the halves gives:
+their centroids then come out fairest. Lengths are in the frame of the ship, -1 at AP to 1 at FP.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import attrs
+import numpy as np
+from scipy.optimize import root_scalar
+
+from assoc_hull.errors import BadInputError, OutOfRangeError
+from assoc_hull.geometry.form_curves.integrals import form_integrals
+from assoc_hull.model.form_definition import FormDefinition
+from assoc_hull.model.forms.two_halves import half_fault, half_number, half_vertices
+
+__all__ = ["SwungAreas", "half_sums", "scaled_half", "swing_areas"]
+
+_GAP = 0.02
+"""The parallel part is at least this long, so that its ends are two places."""
+
+_SHORTEST = 0.40
+"""No half is shorter: a fifth of the length."""
+
+_FULLNESS = (0.45, 0.74)
+"""Fullness of a half within which curves of the kind used here rise all the way."""
+
+
+@attrs.frozen
+class SwungAreas:
+    """A curve of areas with the coefficients asked for.
+
+    Attributes
+    ----------
+    definition : FormDefinition
+        The curve.
+    way : str
+        How it was reached, in words.
+    """
+
+    definition: FormDefinition
+    way: str
+
+
+def half_sums(definition: FormDefinition, half: str) -> tuple[float, float]:
+    """Give area and centroid of a half as it is made."""
+    found = form_integrals(half_vertices(definition, half)[None])
+    area = float(found.area[0])
+    return area, float(found.moment[0]) / area
+
+
+def scaled_half(definition: FormDefinition, half: str, inner: float) -> FormDefinition:
+    """Let the parallel part begin elsewhere: the half is stretched toward it, its end stays."""
+    start, finish = _ENDS[half]
+    fixed, moved = (start, finish) if half == "run" else (finish, start)
+    outer = half_number(definition, fixed)
+    stretch = (inner - outer) / (half_number(definition, moved) - outer)
+    changes: dict[str, float | None] = {moved: inner}
+    for side in ("start", "end"):
+        changes |= _stretched_end(definition, f"{half}_{side}", stretch)
+    area, centroid = (definition.value(f"{half}_{name}") for name in ("area", "centroid"))
+    if area is not None:
+        changes[f"{half}_area"] = area * stretch
+    if centroid is not None:
+        changes[f"{half}_centroid"] = outer + (centroid - outer) * stretch
+    return definition.having(changes)
+
+
+_ENDS = {"run": ("run_start", "run_end"), "entrance": ("entrance_start", "entrance_end")}
+
+
+def _stretched_end(definition: FormDefinition, end: str, stretch: float) -> dict[str, float | None]:
+    """Give angle, curvature and tangent of an end when abscissae are stretched."""
+    angle = math.radians(definition.value(f"{end}_angle_deg") or 0.0)
+    along, up = stretch * math.cos(angle), math.sin(angle)
+    size = math.hypot(along, up)
+    found: dict[str, float | None] = {f"{end}_angle_deg": math.degrees(math.atan2(up, along))}
+    for name, factor in (("curvature", stretch / size**3), ("tangent", size)):
+        value = definition.value(f"{end}_{name}")
+        if value is not None:
+            found[f"{end}_{name}"] = value * factor
+    return found
+
+
+def swing_areas(definition: FormDefinition, fullness: float, centroid: float) -> SwungAreas:
+    """Give a curve of areas of this fullness (prismatic coefficient) and centroid.
+
+    Parameters
+    ----------
+    definition : FormDefinition
+        A curve of areas that runs from -1 to 1 and has the ordinate 1 in its parallel part.
+    fullness, centroid : float
+        Of the whole curve; the centroid in half lengths from midship, forward positive.
+
+    Raises
+    ------
+    BadInputError
+        No curve of this kind has them.
+    """
+    ends = _swung(definition, fullness, centroid)
+    if ends is not None and ends[1] - ends[0] < _GAP:
+        middle = float(np.clip(0.5 * (ends[0] + ends[1]), -0.25, 0.2))
+        return _both_areas(definition, fullness, centroid, middle - 0.5 * _GAP, middle + 0.5 * _GAP)
+    if ends is None or ends[1] > 1.0 - _SHORTEST:
+        return _one_area(definition, fullness, centroid, "entrance", 1.0 - _SHORTEST)
+    if ends[0] < _SHORTEST - 1.0:
+        return _one_area(definition, fullness, centroid, "run", _SHORTEST - 1.0)
+    found = scaled_half(scaled_half(definition, "run", ends[0]), "entrance", ends[1])
+    return SwungAreas(_sound(found), "both halves keep their fullness; the parallel part moves")
+
+
+def _swung(
+    definition: FormDefinition, fullness: float, centroid: float
+) -> tuple[float, float] | None:
+    """Give the ends of the parallel part by which halves that keep their shape do it."""
+    run, entrance = (half_sums(definition, half) for half in ("run", "entrance"))
+    first, last = (half_number(definition, name) for name in ("run_end", "entrance_start"))
+    f_r, g_r = run[0] / (1.0 + first), (1.0 + run[1]) / (1.0 + first)
+    f_e, g_e = entrance[0] / (1.0 - last), (1.0 - entrance[1]) / (1.0 - last)
+    # Area by the lengths of run and entrance, r and e: 2 C = 2 - (1 - f_r) r - (1 - f_e) e.
+    slope, offset = (1.0 - f_r) / (1.0 - f_e), (2.0 - 2.0 * fullness) / (1.0 - f_e)
+    length = np.polynomial.Polynomial([0.0, 1.0])
+    other = offset - slope * length
+    moment = (
+        f_r * length * (g_r * length - 1.0)
+        + f_e * other * (1.0 - g_e * other)
+        + 0.5 * ((1.0 - other) ** 2 - (length - 1.0) ** 2)
+        - 2.0 * fullness * centroid
+    )
+    found: list[tuple[float, float]] = [
+        (each.real - 1.0, 1.0 - float(other(each.real)))
+        for each in moment.roots().tolist()
+        if abs(each.imag) < 1e-12 and each.real > 0.0 and other(each.real) > 0.0
+    ]
+    return min(found, key=lambda ends: abs(ends[0] - first), default=None)
+
+
+def _free(definition: FormDefinition, half: str, area: float) -> FormDefinition:
+    """Give the curve with another area of a half, whose centroid comes out fairest."""
+    return definition.having({f"{half}_area": area, f"{half}_centroid": None})
+
+
+def _both_areas(
+    definition: FormDefinition, fullness: float, centroid: float, first: float, last: float
+) -> SwungAreas:
+    """Hold a parallel part that is next to none, and solve the areas of both halves."""
+    start = scaled_half(scaled_half(definition, "run", first), "entrance", last)
+    total = 2.0 * fullness - (last - first)
+
+    def made(run: float) -> FormDefinition:
+        return _free(_free(start, "run", run), "entrance", total - run)
+
+    low, high = ((1.0 + first) * each for each in _FULLNESS)
+    found = _solved(made, centroid, (low, high))
+    return SwungAreas(found, "no parallel part is left: the fullness of both halves gives")
+
+
+def _one_area(
+    definition: FormDefinition, fullness: float, centroid: float, half: str, inner: float
+) -> SwungAreas:
+    """Hold the length of one half, and solve its area and the length of the other."""
+    start = scaled_half(definition, half, inner)
+    other = "run" if half == "entrance" else "entrance"
+    sign = 1.0 if half == "entrance" else -1.0
+
+    def made(place: float) -> FormDefinition:
+        swung = scaled_half(start, other, place)
+        kept = half_sums(swung, other)[0]
+        return _free(swung, half, 2.0 * fullness - kept - sign * (inner - place))
+
+    ends = sign * (_SHORTEST - 1.0), inner - sign * _GAP
+    bounds = min(ends), max(ends)
+    found = _solved(made, centroid, bounds)
+    why = f"the {half} is not shortened below a fifth of the length: its fullness gives"
+    return SwungAreas(found, why)
+
+
+def _solved(
+    made: Callable[[float], FormDefinition], centroid: float, bounds: tuple[float, float]
+) -> FormDefinition:
+    """Give the curve of a family with a centroid; the first crossing of even steps is refined."""
+
+    def miss(value: float) -> float:
+        try:
+            return _centroid(made(value)) - centroid
+        except (BadInputError, OutOfRangeError):
+            return math.nan
+
+    places = np.linspace(*bounds, 25)
+    values = np.array([miss(each) for each in places])
+    for left, right, a, b in zip(places, places[1:], values, values[1:], strict=False):
+        if np.isfinite([a, b]).all() and a * b <= 0.0:
+            best = root_scalar(miss, bracket=(left, right), xtol=1e-15, rtol=1e-14).root
+            return _sound(made(best))
+    raise BadInputError("no curve of areas has this fullness and centroid", "in a swing", "_")
+
+
+def _centroid(definition: FormDefinition) -> float:
+    run, entrance = (half_sums(definition, half) for half in ("run", "entrance"))
+    first, last = (half_number(definition, name) for name in ("run_end", "entrance_start"))
+    area = run[0] + entrance[0] + last - first
+    return (run[0] * run[1] + entrance[0] * entrance[1] + 0.5 * (last**2 - first**2)) / area
+
+
+def _sound(definition: FormDefinition) -> FormDefinition:
+    """Take a curve whose halves can be made, are of a sound fullness, and give numbers for None."""
+    changes: dict[str, float | None] = {}
+    for half, (start, finish) in _ENDS.items():
+        fault = half_fault(definition, half)
+        if fault:
+            raise BadInputError(f"the {half} {fault}", "in a swing", "_")
+        area, centroid = half_sums(definition, half)
+        full = area / (half_number(definition, finish) - half_number(definition, start))
+        if not _FULLNESS[0] <= full <= _FULLNESS[1]:
+            raise BadInputError(f"the {half} has a fullness of {full:.3f}", "in a swing", "_")
+        changes |= {f"{half}_area": area, f"{half}_centroid": centroid}
+    return definition.having(changes)

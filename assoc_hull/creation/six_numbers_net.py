@@ -1,0 +1,121 @@
+"""Make the net of a ship from six numbers: what does not fit is mended in a stated order, and told.
+
+CB and LCB never give way. Where a section has more area than its waterline can hold, the waterline
+becomes fuller, in steps; where a line cannot be cut fairly, it is shifted, and at last left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import attrs
+
+from assoc_hull.creation.area_swing import half_sums
+from assoc_hull.creation.design import Design
+from assoc_hull.creation.design_net import build_net, straighten_waterline
+from assoc_hull.creation.six_numbers import DesignNote, TypedDesign
+from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.lines.add_line import add_line
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError, OutOfRangeError, RefusedEditError
+from assoc_hull.model.forms.form_values import Forms
+from assoc_hull.model.forms.two_halves import half_fault, half_number
+from assoc_hull.model.tables import HullState
+
+__all__ = ["build_typed"]
+
+_FULLER = 0.015
+"""Of the area of a half of the waterline: one step."""
+
+_STEPS = 4
+
+_SHIFTS = (0.0, 0.03, -0.03, 0.06, -0.06)
+"""Of the draught or of half the breadth: where else a line is tried."""
+
+
+def build_typed(typed: TypedDesign) -> tuple[HullState, AdoptionReport, TypedDesign]:
+    """Make the net; also give the report of adoption, and the design with what was mended.
+
+    Raises BadInputError or OutOfRangeError where a section cannot be made after all that.
+    """
+    design, notes, state, report = _with_room(typed.design)
+    forms = Forms.of(design.definitions, design.particulars)
+    document = Document(state)
+
+    def waterline(z: float) -> None:
+        with Transaction(document, f"cut waterline {z:g}") as edit:
+            straighten_waterline(edit, forms, add_line(edit, "waterlines", z))
+
+    def buttock(y: float) -> None:
+        with Transaction(document, f"cut buttock {y:g}") as edit:
+            add_line(edit, "buttocks", y)
+
+    ship = design.particulars
+    heights = _cut(waterline, design.waterlines, ship.draught, "waterline", notes)
+    places = _cut(buttock, design.buttocks, 0.5 * ship.breadth, "buttock", notes)
+    design = attrs.evolve(design, waterlines=heights, buttocks=places)
+    return state, report, TypedDesign(design, (*typed.notes, *notes))
+
+
+def _with_room(
+    design: Design,
+) -> tuple[Design, list[DesignNote], HullState, AdoptionReport]:
+    """Make boundary and sections; the waterline is made fuller until they have room."""
+    for step in range(_STEPS + 1):
+        try:
+            state, report = build_net(attrs.evolve(design, waterlines=(), buttocks=()))
+        except OutOfRangeError as error:
+            if step == _STEPS or "sectional_area" not in error.name:
+                raise
+            design = _fuller(design, error)
+            continue
+        break
+    notes = []
+    if step:
+        value = half_sums(design.definition("design_waterline"), "entrance")[0]
+        notes.append(DesignNote(
+            "area of the entrance of the waterline", value, "", "made fuller in steps",
+            remark=f"{step} steps of {100 * _FULLER:g} %: sections had no room for their areas",
+        ))  # fmt: skip
+    return design, notes, state, report
+
+
+def _fuller(design: Design, error: OutOfRangeError) -> Design:
+    """Make the half of the waterline fuller in which a section has too little room."""
+    line = design.definition("design_waterline")
+    # The error names the section by its place.
+    where = error.where.rpartition("x = ")[2].partition(" m")[0]
+    frame = 2.0 * float(where) / design.particulars.length - 1.0
+    half = "run" if frame < half_number(line, "run_end") else "entrance"
+    area = half_sums(line, half)[0] * (1.0 + _FULLER)
+    fuller = line.having({f"{half}_area": area, f"{half}_centroid": None})
+    if half_fault(fuller, half):
+        raise error
+    return design.having(fuller)
+
+
+def _cut(
+    cut: Callable[[float], None], places: tuple[float, ...], size: float, what: str,
+    notes: list[DesignNote],
+) -> tuple[float, ...]:  # fmt: skip
+    """Cut lines of a family; one that cannot be cut is shifted, or left out."""
+    found: list[float] = []
+    for place in places:
+        for shift in _SHIFTS:
+            at = round(place + shift * size, 3)
+            if any(abs(at - other) < 0.02 * size for other in (*found, *places) if other != place):
+                continue
+            try:
+                cut(at if shift else place)
+            except (BadInputError, OutOfRangeError, RefusedEditError) as error:
+                why = str(error)
+                continue
+            found.append(at if shift else place)
+            if shift:
+                source = f"shifted from {place:g} m: it could not be cut there"
+                notes.append(DesignNote(what, at, "m", source))
+            break
+        else:
+            notes.append(DesignNote(what, place, "m", "left out", remark=why))
+    return tuple(found)

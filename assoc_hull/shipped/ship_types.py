@@ -1,0 +1,68 @@
+"""Types of ships that can be made from six numbers: the design of each, and its ranges of use.
+
+Ranges are those over which ships were drawn and made (`python -m benchmarks six_numbers`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from assoc_hull.creation.six_numbers import ShipType
+from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.shipped.bulk_carrier_180m import bulk_carrier_180m_design
+from assoc_hull.shipped.container_ship_225m import container_ship_225m_design
+from assoc_hull.shipped.plain_ship import plain_ship_design
+
+__all__ = ["SHIP_TYPES", "ship_type"]
+
+
+def _ratios(
+    slender: tuple[float, float], beam: tuple[float, float], depth: tuple[float, float],
+    cb: tuple[float, float], lcb: tuple[float, float],
+) -> Mapping[str, tuple[float, float]]:  # fmt: skip
+    found = {"L/B": slender, "B/T": beam, "D/T": depth, "cb": cb, "lcb": lcb}
+    return MappingProxyType(found)
+
+
+_FULL = _ratios((5.5, 7.0), (2.2, 3.2), (1.3, 1.65), (0.72, 0.85), (0.0, 3.5))
+_STERN = -0.9
+
+SHIP_TYPES: Mapping[str, ShipType] = MappingProxyType({
+    each.name: each for each in (
+        ShipType("bulk carrier", bulk_carrier_180m_design, (100.0, 320.0), _FULL, _STERN),
+        ShipType("tanker", bulk_carrier_180m_design, (100.0, 320.0), _FULL, _STERN),
+        ShipType(
+            "container ship", container_ship_225m_design, (120.0, 360.0),
+            _ratios((6.0, 8.2), (2.4, 3.6), (1.5, 2.1), (0.58, 0.72), (-3.0, 0.0)), -0.88,
+        ),
+        ShipType(
+            "general cargo", plain_ship_design, (70.0, 160.0),
+            _ratios((5.5, 7.2), (2.2, 2.9), (1.3, 1.7), (0.62, 0.80), (-1.5, 2.0)), _STERN,
+        ),
+        ShipType(
+            "ro-ro", container_ship_225m_design, (100.0, 220.0),
+            _ratios((5.5, 7.5), (3.0, 4.5), (1.8, 2.6), (0.52, 0.68), (-4.0, -1.0)), -0.88,
+            remark="a single skeg; no twin skeg is drawn",
+        ),
+    )
+})  # fmt: skip
+"""By name."""
+
+_NOT_YET = {
+    "trawler": "it needs a raked keel and a rise of floor, which no design here has",
+    "yacht canoe body": "it needs sections without flats and areas without a parallel part",
+}
+
+
+def ship_type(name: str) -> ShipType:
+    """Give a type by its name; raises UnknownNameError, or BadInputError for one not made well."""
+    if name in _NOT_YET:
+        known = ", ".join(SHIP_TYPES)
+        raise BadInputError(
+            f"a {name} cannot be made well from six numbers: {_NOT_YET[name]}", "in create",
+            f"give one of {known}, or a design of your own",
+        )  # fmt: skip
+    if name not in SHIP_TYPES:
+        raise UnknownNameError("type of ship", name, (*SHIP_TYPES, *_NOT_YET))
+    return SHIP_TYPES[name]

@@ -1,0 +1,120 @@
+"""Ships from six numbers: what was asked for is met, the rest told, contradictions refused."""
+
+from __future__ import annotations
+
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.creation.area_swing import half_sums, swing_areas
+from assoc_hull.creation.six_numbers import SixNumbers, design_for
+from assoc_hull.hull.hull import Hull
+from assoc_hull.model.forms.closure import coefficients
+from assoc_hull.shipped.ship_types import SHIP_TYPES, ship_type
+
+SIX = {"length": 100.0, "breadth": 16.0, "draught": 6.5, "depth": 9.0, "cb": 0.70, "lcb": 0.4}
+
+
+@pytest.fixture(scope="module")
+def cargo() -> Hull:
+    """Give a general cargo ship of 100 m."""
+    return ah.create(
+        length=100.0, breadth=16.0, draught=6.5, depth=9.0, cb=0.70, lcb=0.4, type="general cargo"
+    )
+
+
+def test_hydrostatics_of_the_net_have_the_cb_and_lcb_that_were_asked_for(cargo: Hull) -> None:
+    """Within 1e-6, and 1e-6 of the length."""
+    found = cargo.hydrostatics()
+    assert found.cb == pytest.approx(0.70, abs=1e-6)
+    assert found.lcb - 50.0 == pytest.approx(0.4, abs=1e-4)
+
+
+def test_ship_from_six_numbers_is_sound_and_has_no_history(cargo: Hull) -> None:
+    """Nothing to find by check and verify; the last step on CB and LCB is none of the user's."""
+    assert not cargo.check()
+    assert not cargo.verify()
+    assert not cargo.history
+
+
+def test_values_can_be_read_and_set(cargo: Hull) -> None:
+    """The definitions belong to the hull."""
+    hull = cargo.snapshot()
+    assert hull.definitions["sectional areas"].values["run_end"] is not None
+    with hull.edit("fuller bow") as edit:
+        edit.set_form("profile", top_y=10.5)
+    assert hull.definitions["profile"].values["top_y"] == 10.5
+
+
+def test_notes_tell_source_range_and_alternatives(cargo: Hull) -> None:
+    """Of CM: the formula used, and what the other one gives."""
+    notes = {each.name: each for each in cargo.notes}
+    assert notes["CM"].value == pytest.approx(1.006 - 0.0056 * 0.70**-3.56)
+    assert list(notes["CM"].others.values()) == [pytest.approx(1.0 / (1.0 + 0.3**3.5))]
+    assert {"CW", "CP", "bilge radius", "half angle of entrance"} <= set(notes)
+
+
+@pytest.mark.parametrize("kind", SHIP_TYPES)
+def test_design_closes_to_cb_and_lcb_exactly(kind: str) -> None:
+    """Also where the fullness of the halves has to give."""
+    ratios = ship_type(kind).ratios
+    cb = 0.5 * sum(ratios["cb"])
+    lcb = 0.01 * 0.5 * sum(ratios["lcb"]) * 150.0
+    six = SixNumbers(150.0, 150.0 / 6.4, 150.0 / 6.4 / 3.0, 15.0, cb, lcb)
+    design = design_for(SHIP_TYPES[kind], six).design
+    found = coefficients(design.definition("sectional_area"), design.particulars)
+    assert found.block == pytest.approx(cb, abs=1e-12)
+    assert found.centroid == pytest.approx(lcb, abs=1e-9)
+
+
+def test_swing_to_its_own_coefficients_leaves_a_curve_of_areas_as_it_is() -> None:
+    """Nothing moves where nothing is asked for."""
+    parent = SHIP_TYPES["bulk carrier"].parent()
+    areas = parent.definition("sectional_area")
+    now = coefficients(areas, parent.particulars)
+    found = swing_areas(areas, now.fullness, 2.0 * now.centroid / parent.particulars.length)
+    for half in ("run", "entrance"):
+        assert half_sums(found.definition, half) == pytest.approx(half_sums(areas, half), abs=1e-9)
+
+
+def test_cb_and_lcb_that_fight_are_refused_with_the_intervals_of_both() -> None:
+    """And the interval of CB holds."""
+    six = SIX | {"lcb": 5.4}
+    with pytest.raises(ah.errors.OutOfRangeError, match="cb of 0.7 and lcb of 5.4 m fight") as no:
+        design_for(SHIP_TYPES["general cargo"], SixNumbers(**six))
+    assert "keep cb and give an lcb from" in str(no.value)
+    six["cb"] = 0.5 * (no.value.least + no.value.most)
+    design_for(SHIP_TYPES["general cargo"], SixNumbers(**six))
+
+
+def test_number_out_of_its_range_is_told_and_far_out_refused() -> None:
+    """A note beside, a refusal far out."""
+    kind = SHIP_TYPES["general cargo"]
+    notes = design_for(kind, SixNumbers(**(SIX | {"breadth": 19.0}))).notes
+    assert any("out of the range of use" in each.remark for each in notes)
+    with pytest.raises(ah.errors.OutOfRangeError, match="far out of the range"):
+        design_for(kind, SixNumbers(**(SIX | {"length": 400.0})))
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({"cb": None}, "cb is missing"),
+        ({"lcb": None}, "lcb is missing"),
+        ({"lcb_percent": 0.2}, "both given"),
+        ({"cm": 0.98, "bilge_radius": 2.0}, "both given"),
+        ({"type": "trawler"}, "cannot be made well"),
+        ({"type": "submarine"}, "submarine"),
+        ({"breadth": -16.0}, "breadth"),
+    ],
+    ids=["no cb", "no lcb", "two lcb", "two bilges", "trawler", "no type", "negative"],
+)
+def test_mistakes_are_named(more: dict[str, object], words: str) -> None:
+    """By an error of the family."""
+    with pytest.raises(ah.errors.AssocHullError, match=words):
+        ah.create(**(SIX | {"type": "general cargo"} | more))  # type: ignore[arg-type]
+
+
+def test_numbers_beside_a_design_are_refused() -> None:
+    """A design has its own."""
+    with pytest.raises(ah.errors.BadInputError, match="beside a design"):
+        ah.create(SHIP_TYPES["general cargo"].parent(), length=100.0)
