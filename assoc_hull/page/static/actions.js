@@ -67,6 +67,11 @@ export const ACTIONS = [
     page.panel.open("Problems");
     page.panel.problems.ask();
   }},
+  {id: "why", words: "Why the chosen point or line moved last", keys: ["w"], run: (page) => page.panel.open("Why")},
+  {id: "history", words: "History: all steps, going back, comparing", keys: ["h"], run: (page) => page.panel.open("History")},
+  {id: "hydrostatics", words: "Hydrostatics and sectional areas", keys: ["y"], run: (page) => page.panel.open("Hydrostatics")},
+  {id: "fairing", words: "Fairing: the waviest lines, a window", keys: ["Shift+f"], run: (page) => page.panel.open("Fair")},
+  {id: "export", words: "Write a lines plan, offsets, a drawing", keys: ["x"], run: (page) => page.panel.open("Export")},
   {id: "theme", words: "Light, dark, or as the system", keys: ["t"], label: () => "Theme", run: (page) => page.nextTheme()},
   {id: "keys", words: "All keys", keys: ["?"], label: () => "Keys", run: (page) => page.sheet()},
 ];

@@ -61,7 +61,7 @@ export class Keys {
     } else if (store.refusal || store.problem) {
       store.refusal = store.problem = null;
       store.changed("overlay", "panel");
-    } else if (store.ghost) page.panel.vary.drop();
+    } else if (store.ghost || page.shower) page.dropGhost();
     else if (field) page.leaveField(field);
     else if (store.maximised) page.maximise(/** @type {import("./view.js").Kind} */ (store.maximised));
     else store.select(null, null);

@@ -63,6 +63,9 @@ export class Page {
     this.panelStale = true;
     this.pending = 0;
     this.number = 0;
+    /** The number of the ghost that is waited for or shown, and who asked for it. */
+    this.wanted = 0;
+    this.shower = /** @type {{dropped: () => void} | null} */ (null);
     /** @type {any} */
     this.message = null;
     this.ink = readInk(root);
@@ -100,19 +103,21 @@ export class Page {
       store.changed("panel");
     } else if (message.t === "grip") hand.grip(message);
     else if (message.t === "refused") {
-      if (!hand.refused(message) && message.id) this.#refusedHere(message);
+      if (!hand.refused(message) && message.id) {
+        const told = this.panel.askers.some((each) => each.refused(message));
+        if (!told) this.#refusedHere(message);
+      }
     } else if (message.t === "done") {
       hand.done(message);
-      this.panel.vary.done(message);
+      for (const each of this.panel.askers) each.done(message);
       store.last = message;
       this.say(`${message.name}: ${message.relofted} curves followed.`);
       store.changed("panel");
     } else if (message.t === "answer") {
-      this.panel.problems.answer(message);
-      this.panel.vary.answer(message);
+      for (const each of this.panel.askers) each.answer(message);
     }
     else if (message.t === "problem") {
-      if (this.panel.vary.problem(message)) return;
+      if (this.panel.askers.some((each) => each.problem(message))) return;
       hand.problem(message);
       store.problem = message.text;
       store.changed("panel", "overlay");
@@ -134,6 +139,7 @@ export class Page {
       const first = store.net === null, net = new Net(this.message);
       hand.drop();
       store.adopt(net, frame);
+      this.dropGhost();
       this.root.ownerDocument.title = `${net.particulars.name} – fairing page`;
       this.bar.name(net.particulars, net.lines.length, net.points.size);
       if (first) this.fit();
@@ -144,11 +150,14 @@ export class Page {
       hand.asked.delete(frame.seq);
     } else if (frame.kind === GHOST) {
       // One of a state that has passed would be compared with another hull.
-      if (frame.state === store.state) {
+      if (frame.state === store.state && frame.seq === this.wanted) {
         store.ghost = frame;
         store.changed("overlay");
       }
-    } else store.publish(frame);
+    } else {
+      store.publish(frame);
+      this.dropGhost();
+    }
   }
 
   /** @param {"lost" | "over"} how @param {string} reason */
@@ -250,6 +259,15 @@ export class Page {
     return this.number;
   }
 
+  /** Removes the ghost; one that is still to come is not shown. */
+  dropGhost() {
+    const {store, shower} = this;
+    this.wanted = 0;
+    this.shower = store.ghost = null;
+    shower?.dropped();
+    store.changed("overlay");
+  }
+
   undo() { this.request({t: "undo"}); }
 
   redo() { this.request({t: "redo"}); }
@@ -257,7 +275,7 @@ export class Page {
   /** @param {string} name @param {object[]} ops */
   apply(name, ops) {
     this.store.refusal = this.store.problem = null;
-    this.request({t: "apply", name: name.slice(0, 190), ops});
+    return this.request({t: "apply", name: name.slice(0, 190), ops});
   }
 
   /** @param {string} name */
