@@ -4,7 +4,7 @@ import {ACTIONS, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
 import {Keys} from "./keys.js";
 import {GHOST, LIVE, NET, VERSION, parseFrame} from "./wire.js";
-import {Net} from "./net.js";
+import {CROSSING, Net} from "./net.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
 import {Speaker} from "./speak.js";
@@ -56,6 +56,9 @@ export class Page {
     this.pointers = Object.fromEntries(KINDS.map((kind) => [kind, new Pointers(this.views[kind], this.hand)]));
     this.hand.scale = () => Math.max(...["body", "profile", "half"].map((kind) => this.views[kind].shown ? Math.max(this.views[kind].axis.s, this.views[kind].sy) : 0));
     this.hand.onGrip = () => Object.values(this.pointers).forEach((each) => each.track());
+    this.hand.onBegin = () => this.dropGhost();
+    this.hand.onLet = (held, wish) => this.#proposed(held, wish);
+    for (const kind of KINDS) this.pointers[kind].onInsert = (place) => this.#insertAt(place);
     for (const kind of KINDS) this.views[kind].upper.addEventListener("focus", () => this.#look(kind));
     this.active = /** @type {Kind} */ ("body");
     this.panel = new Panel(this, aside);
@@ -231,6 +234,40 @@ export class Page {
   say(words) {
     this.speaker.say(words);
     this.status.textContent = words;
+  }
+
+  /** A fair answer and a lead are looked at before they are made. @param {import("./store.js").Held} held @param {Record<string, number>} wish */
+  #proposed(held, wish) {
+    const {tools, net} = this.store, point = net?.points.get(held.row), far = (1e3 * (held.amount ?? 0)).toFixed(1);
+    if (!point) return false;
+    if (held.how === "pull" && tools.fair) this.panel.proposal.show(`pull ${point.name} by ${far} mm, answered fairly`, [{op: "pull", point: point.name, d: wish.d, radius: held.radius, fair: true}]);
+    else if (held.how === "move" && point.sort !== CROSSING && !tools.pinned) this.panel.proposal.show(`lead ${net?.curveName(point.a)} by ${point.name}, ${far} mm`, [{op: "move", point: point.name, ...wish, lead: true}]);
+    else return false;
+    return true;
+  }
+
+  /** The next click inserts a point into the chosen line. */
+  insert() {
+    const {selection} = this.store;
+    if (selection.curve === null) return this.say("Choose a line first: click it.");
+    this.store.inserting = selection.curve;
+    this.dropGhost();
+    this.say("Click where the line is to go through: beside it, the line is led there. Esc cancels.");
+  }
+
+  /** @param {number[] | null} place */
+  #insertAt(place) {
+    const {store} = this, id = store.inserting, name = id === null ? "" : store.net?.curveName(id) ?? "";
+    if (!place) return this.say(`Click in the view that shows ${name} in its plane. Esc cancels.`);
+    store.inserting = null;
+    this.panel.proposal.show(`insert a point into ${name} at (${place.map((each) => each.toFixed(3)).join(", ")}) m`, [{op: "insert", curve: name, place, lead: !store.tools.pinned}]);
+  }
+
+  /** @param {"fair" | "pinned"} what */
+  toggleTool(what) {
+    this.store.tools[what] = !this.store.tools[what];
+    this.store.changed("panel");
+    this.keep();
   }
 
   activeView() { return this.views[this.store.maximised ?? this.active]; }
@@ -414,15 +451,17 @@ export class Page {
 
   keep() {
     const {show, tools, gain, squeeze, theme} = this.store;
-    this.options.keep("looks", JSON.stringify({show, how: tools.how, fine: tools.fine, gain, squeeze, theme}));
+    this.options.keep("looks", JSON.stringify({show, how: tools.how, fine: tools.fine, fair: tools.fair, pinned: tools.pinned, gain, squeeze, theme}));
   }
 
   #restore() {
     try {
-      const {show, how, fine, gain, squeeze, theme} = JSON.parse(this.options.kept("looks") ?? "{}");
+      const {show, how, fine, fair, pinned, gain, squeeze, theme} = JSON.parse(this.options.kept("looks") ?? "{}");
       for (const name of /** @type {(keyof Store["show"])[]} */ (Object.keys(this.store.show))) if (typeof show?.[name] === "boolean") this.store.show[name] = show[name];
       if (how === "pull" || how === "move") this.store.tools.how = how;
       this.store.tools.fine = fine === true;
+      this.store.tools.fair = fair === true;
+      this.store.tools.pinned = pinned === true;
       if (gain > 0 && gain < 100) this.store.gain = gain;
       if ([1, 2, 5, 10].includes(squeeze)) this.store.squeeze = squeeze;
       if (["auto", "light", "dark"].includes(theme)) this.store.theme = theme;

@@ -1,5 +1,7 @@
 // The panel at the right: the point, its curve, what the edit does, who signs.
 
+import {ACTIONS, keyWords} from "./actions.js";
+import {button} from "./asker.js";
 import {inflections} from "./comb.js";
 import {arcLength} from "./hermite.js";
 import {farthest} from "./paint.js";
@@ -11,6 +13,7 @@ import {Past} from "./past.js";
 import {Proposal} from "./propose.js";
 import {Vary} from "./vary.js";
 import {WhyPanel} from "./why.js";
+import {CROSSING} from "./net.js";
 import {millimetres, signed} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
@@ -50,7 +53,17 @@ export class Panel {
     /** All that ask the server: an answer is for one of them. */
     this.askers = [this.proposal, this.why, this.past, this.numbers, this.fair, this.vary, this.problems, new Files(page, this.parts.Export)];
     this.radii = [0, 1].map((i) => this.#radius(i));
+    this.switches = ["fair-pull", "pinned", "insert"].map((id) => {
+      const action = /** @type {import("./actions.js").Action} */ (ACTIONS.find((each) => each.id === id)), found = button(action.label?.(page) ?? "", () => action.run(page));
+      found.dataset.action = id;
+      found.title = `${action.words} (${action.keys.map(keyWords).join(", ")})`;
+      return {action, found};
+    });
     this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
+    const form = document.createElement("div");
+    form.className = "form";
+    form.append(...this.switches.map(({found}) => found));
+    this.parts.Pull.append(form);
   }
 
   /** @param {number} i */
@@ -70,6 +83,10 @@ export class Panel {
 
   render() {
     const radius = this.page.store.tools.radius;
+    for (const {action, found} of this.switches) {
+      found.disabled = !(action.enabled?.(this.page) ?? true);
+      if (action.pressed) found.setAttribute("aria-pressed", String(action.pressed(this.page)));
+    }
     this.radii.forEach((field, i) => {
       if (radius && field !== document.activeElement) field.value = radius[i].toFixed(1);
     });
@@ -174,8 +191,10 @@ export class Panel {
   /** @param {import("./net.js").Point} point */
   #enter(point) {
     const values = Object.fromEntries([...point.free].map((name) => [name, Number(this.fields[AXES.indexOf(name)].value.replace(",", ".").trim() || NaN)]));
+    const {tools} = this.page.store;
     const wrong = Object.entries(values).find(([, value]) => !Number.isFinite(value));
     if (wrong) return this.page.say(`${wrong[0]} is no number of metres: type one such as 6.953`);
+    if (point.sort !== CROSSING && !tools.pinned) return this.page.panel.proposal.show(`lead ${this.page.store.net?.curveName(point.a)} by ${point.name}`, [{op: "move", point: point.name, ...values, lead: true}]);
     this.page.apply(`place ${point.name} at ${Object.entries(values).map(([name, value]) => `${name} ${value}`).join(", ")}`, [{op: "move", point: point.name, ...values}]);
   }
 

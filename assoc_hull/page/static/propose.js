@@ -60,7 +60,7 @@ export class Proposal extends Asker {
     if (message.id !== this.asked || !this.what) return;
     const {refused, notes} = message.value;
     this.ready = !refused.length;
-    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value)}.`, "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3)].join(" ");
+    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value)}.`, "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
     this.page.say(this.words.textContent);
     this.page.store.changed("panel");
   }
