@@ -7,7 +7,7 @@ names are known, texts are short, nothing else is in it.
 from __future__ import annotations
 
 import json
-from typing import Any, NoReturn
+from typing import Any, NoReturn, get_args
 
 import attrs
 
@@ -21,15 +21,26 @@ __all__ = [
     "Begin",
     "Cancel",
     "Check",
+    "Checkpoint",
     "Commit",
+    "Compare",
+    "Export",
+    "Fairness",
+    "Go",
     "Hello",
+    "Hydrostatics",
     "Message",
     "Parameters",
+    "Preview",
+    "Question",
     "Redo",
     "Sign",
+    "Steps",
     "To",
     "Undo",
     "Vary",
+    "Why",
+    "Window",
     "parse",
 ]
 
@@ -170,6 +181,85 @@ class Redo:
 
 
 @attrs.frozen
+class Steps:
+    """List the steps and names of the history."""
+
+    id: int = attrs.field(validator=_count)
+
+
+@attrs.frozen
+class Go:
+    """Bring the hull to the state after a step; 0 for the hull as it came."""
+
+    id: int = attrs.field(validator=_count)
+    step: int = attrs.field(validator=_count)
+
+
+@attrs.frozen
+class Compare:
+    """Show the hull as it was after a step."""
+
+    id: int = attrs.field(validator=_count)
+    step: int = attrs.field(validator=_count)
+
+
+@attrs.frozen
+class Checkpoint:
+    """Name the present state."""
+
+    id: int = attrs.field(validator=_count)
+    name: str = attrs.field(validator=_name)
+
+
+@attrs.frozen
+class Why:
+    """Tell why a point or a line lies where it does."""
+
+    id: int = attrs.field(validator=_count)
+    of: str = attrs.field(validator=_name)
+
+
+@attrs.frozen
+class Hydrostatics:
+    """Measure the hull at its design draught, beside what it was when the server began."""
+
+    id: int = attrs.field(validator=_count)
+
+
+@attrs.frozen
+class Fairness:
+    """List the waviest lines, and points that their lines do not bear out."""
+
+    id: int = attrs.field(validator=_count)
+
+
+@attrs.frozen
+class Window:
+    """Show the hull as it would be, if a window of it were faired."""
+
+    id: int = attrs.field(validator=_count)
+    row: int = attrs.field(validator=_count)
+    noise: float = attrs.field(validator=_coordinate)
+    radius: list[float] = attrs.field(validator=_radius)
+
+
+@attrs.frozen
+class Preview:
+    """Show the hull as it would be after edits, which are given as for `Apply`."""
+
+    id: int = attrs.field(validator=_count)
+    ops: list[dict[str, object]] = attrs.field(validator=_operations)
+
+
+@attrs.frozen
+class Export:
+    """Write the hull for another program; the form is the ending of the file."""
+
+    id: int = attrs.field(validator=_count)
+    form: str = attrs.field(validator=_name)
+
+
+@attrs.frozen
 class Check:
     """Look for what is wrong with the hull."""
 
@@ -193,13 +283,34 @@ class Vary:
 
 
 Message = (
-    Hello | Sign | Begin | To | Commit | Cancel | Apply | Undo | Redo | Check | Parameters | Vary
+    Hello
+    | Sign
+    | Begin
+    | To
+    | Commit
+    | Cancel
+    | Apply
+    | Undo
+    | Redo
+    | Steps
+    | Go
+    | Compare
+    | Checkpoint
+    | Why
+    | Hydrostatics
+    | Fairness
+    | Window
+    | Preview
+    | Export
+    | Check
+    | Parameters
+    | Vary
 )
 
-_KINDS: dict[str, type[Message]] = {
-    kind.__name__.lower(): kind
-    for kind in (Hello, Sign, Begin, To, Commit, Cancel, Apply, Undo, Redo, Check, Parameters, Vary)
-}
+Question = Parameters | Vary | Compare | Hydrostatics | Fairness | Window | Preview
+"""What is answered from a copy of the hull: the newest of a kind wins."""
+
+_KINDS: dict[str, type[Message]] = {kind.__name__.lower(): kind for kind in get_args(Message)}
 
 
 def parse(text: str) -> Message:

@@ -27,23 +27,44 @@ from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError, S
 from assoc_hull.hull.hull import Hull
 from assoc_hull.model.address import address
 from assoc_hull.model.objects import Point
+from assoc_hull.page.answers import describe_hydrostatics, describe_why
 from assoc_hull.page.describe import describe_net, describe_state
+from assoc_hull.page.fairing import describe_fairness, ghost_of_edits, ghost_of_window
+from assoc_hull.page.files import write_export
 from assoc_hull.page.messages import (
     Apply,
     Begin,
     Cancel,
     Check,
+    Checkpoint,
     Commit,
+    Compare,
+    Export,
+    Fairness,
+    Go,
     Hello,
+    Hydrostatics,
     Message,
     Parameters,
+    Preview,
+    Question,
     Redo,
     Sign,
+    Steps,
     To,
     Undo,
     Vary,
+    Why,
+    Window,
 )
-from assoc_hull.page.variants import describe_parameters, ghost_of_variant
+from assoc_hull.page.past import (
+    describe_steps,
+    ghost_of_step,
+    require_own_steps,
+    require_step,
+    state_of_step,
+)
+from assoc_hull.page.variants import Ghost, describe_parameters, ghost_of_variant
 from assoc_hull.page.wire import Frame, FrameKind, pack
 
 __all__ = ["Client", "Session"]
@@ -89,7 +110,10 @@ class Session:
         self._awake = threading.Condition()
         self._open = True
         self._reader = ThreadPoolExecutor(1, "assoc-hull page reader")
-        self._newest = dict[Client, int]()
+        # A surface takes ten seconds to write: no other answer waits for it.
+        self._writer = ThreadPoolExecutor(1, "assoc-hull page writer")
+        self._newest = dict[tuple[Client, type[Message]], int]()
+        self._opening = hull.snapshot()
         self._faults = 0
         self._worker = threading.Thread(target=self._work, name="assoc-hull page", daemon=True)
         self._worker.start()
@@ -131,6 +155,7 @@ class Session:
             self._awake.notify()
         self._worker.join()
         self._reader.shutdown(cancel_futures=True)
+        self._writer.shutdown(cancel_futures=True)
 
     # ----------------------------------------------------------------------------------
     # In the worker.
@@ -186,7 +211,8 @@ class Session:
         if self._gesture is not None and self._gesture.client is client:
             self._end_gesture()
         self._clients = [each for each in self._clients if each is not client]
-        self._newest.pop(client, None)
+        for key in [key for key in self._newest if key[0] is client]:
+            del self._newest[key]
 
     def _hello(self, client: Client, message: Hello) -> None:
         client.author = message.author
@@ -307,12 +333,9 @@ class Session:
         self, client: Client, act: Callable[[], EditReport], *, gesture: int = 0, number: int = 0
     ) -> None:
         """Make an edit in the name of a client; tell everybody, and the client what it did."""
-        before, name = self.hull.state_number, self.hull.author
-        self.hull.author = client.author
-        try:
+        before = self.hull.state_number
+        with self._signed(client):
             report = act()
-        finally:
-            self.hull.document.author = name  # which may be empty
         self._end_gesture()
         self._publish(before)
         normal = report.largest_normal
@@ -349,8 +372,7 @@ class Session:
         _send(client, {"t": "answer", "id": message.id, "value": found})
 
     def _parameters(self, client: Client, message: Parameters) -> None:
-        copy = self.hull.snapshot()
-        self._read(client, message, lambda: _answer(client, message.id, describe_parameters(copy)))
+        self._look(client, message, describe_parameters)
 
     def _vary(self, client: Client, message: Vary) -> None:
         if message.apply:
@@ -359,17 +381,95 @@ class Session:
             self._edit(client, lambda: hull.vary(set=message.set, in_place=True).report.edit,
                        number=message.id)  # fmt: skip
             return
-        copy, number = self.hull.snapshot(), self.hull.state_number
+        self._show(client, message, lambda copy: _shown(ghost_of_variant(copy, message.set)))
 
-        def show() -> None:
-            if self._newest.get(client) != message.id:
-                return  # another value is wanted by now
-            found = ghost_of_variant(copy, message.set)
-            client.tell(pack(attrs.evolve(found.frame, state=number)))
-            _answer(client, message.id, found.words)
+    def _steps(self, client: Client, message: Steps) -> None:
+        _answer(client, message.id, describe_steps(self.hull.document))
 
-        self._newest[client] = message.id
-        self._read(client, message, show)
+    def _go(self, client: Client, message: Go) -> None:
+        self._require_free(client, "going to a step")
+        document, before = self.hull.document, self.hull.state_number
+        require_step(document, message.step, "going to a step")
+        require_own_steps(document, message.step, client.author)
+        document.go_to(message.step)
+        self._turned(client, before, message.id)
+
+    def _compare(self, client: Client, message: Compare) -> None:
+        self._require_free(client, "comparing")
+        self._end_gesture()
+        then = state_of_step(self.hull.document, message.step)
+        self._show(client, message, lambda copy: ghost_of_step(then, copy.state))
+
+    def _checkpoint(self, client: Client, message: Checkpoint) -> None:
+        self._require_free(client, "checkpoint")
+        self._end_gesture()
+        with self._signed(client):
+            self.hull.checkpoint(message.name)
+        _answer(client, message.id, describe_steps(self.hull.document))
+
+    def _why(self, client: Client, message: Why) -> None:
+        _answer(client, message.id, describe_why(self.hull.why(message.of)))
+
+    def _hydrostatics(self, client: Client, message: Hydrostatics) -> None:
+        opening = self._opening
+        self._look(client, message, lambda copy: describe_hydrostatics(copy, opening))
+
+    def _fairness(self, client: Client, message: Fairness) -> None:
+        self._look(client, message, describe_fairness)
+
+    def _window(self, client: Client, message: Window) -> None:
+        row, noise, reach = message.row, message.noise, message.radius
+        self._show(
+            client, message, lambda copy: ghost_of_window(copy, row, (reach[0], reach[1]), noise)
+        )
+
+    def _preview(self, client: Client, message: Preview) -> None:
+        self._show(client, message, lambda copy: ghost_of_edits(copy, message.ops))
+
+    def _export(self, client: Client, message: Export) -> None:
+        copy = self.hull.snapshot()
+
+        def write() -> None:
+            with self._told(client, message):
+                _answer(client, message.id, write_export(copy, message.form))
+
+        self._writer.submit(write)
+
+    def _look(
+        self, client: Client, message: Question, job: Callable[[Hull], object]
+    ) -> None:  # fmt: skip
+        """Answer from a copy of the hull in the thread of readers; the newest of a kind wins."""
+        copy, key = self.hull.snapshot(), (client, type(message))
+
+        def look() -> None:
+            if self._newest.get(key) == message.id:
+                _answer(client, message.id, job(copy))
+
+        self._newest[key] = message.id
+        self._read(client, message, look)
+
+    def _show(
+        self, client: Client, message: Question, job: Callable[[Hull], tuple[Frame, object]]
+    ) -> None:
+        """Show a ghost that is made on a copy, with its figures; the newest of a kind wins."""
+        number = self.hull.state_number
+
+        def show(copy: Hull) -> object:
+            frame, words = job(copy)
+            client.tell(pack(attrs.evolve(frame, state=number, sequence=message.id)))
+            return words
+
+        self._look(client, message, show)
+
+    @contextlib.contextmanager
+    def _signed(self, client: Client) -> Iterator[None]:
+        """Sign what is done by the name of a client."""
+        name = self.hull.author
+        self.hull.author = client.author
+        try:
+            yield
+        finally:
+            self.hull.document.author = name  # which may be empty
 
     def _read(self, client: Client, message: Message, job: Callable[[], None]) -> None:
         """Do something with a copy of the hull in the thread of readers; drags go on."""
@@ -414,8 +514,14 @@ class Session:
     _acts: ClassVar[dict[type[Any], Callable[[Session, Client, Any], None]]] = {
         Hello: _hello, Sign: _sign, Begin: _begin, To: _to, Commit: _commit, Cancel: _cancel,
         Apply: _apply, Undo: _undo, Redo: _redo, Check: _check,
-        Parameters: _parameters, Vary: _vary,
+        Parameters: _parameters, Vary: _vary, Steps: _steps, Go: _go, Compare: _compare,
+        Checkpoint: _checkpoint, Why: _why, Hydrostatics: _hydrostatics,
+        Fairness: _fairness, Window: _window, Preview: _preview, Export: _export,
     }  # fmt: skip
+
+
+def _shown(ghost: Ghost) -> tuple[Frame, object]:
+    return ghost.frame, ghost.words
 
 
 def _send(client: Client, message: dict[str, Any]) -> None:

@@ -24,10 +24,7 @@ def test_a_variant_is_a_ghost_until_it_is_applied(open_page: Open, hull: ah.Hull
     assert page.evaluate("document.querySelector('.page').fairing.store.ghost === null")
     field.fill("-3")
     box.get_by_text("Apply").click()
-    page.wait_for_function(
-        "() => [...document.querySelectorAll('[role=status]')]"
-        ".some(each => each.textContent.includes('breadth'))"
-    )
+    words.get_by_text("breadth").wait_for()
     assert hull.fingerprint == before
     wanted = round(hull.particulars.breadth + 0.2, 3)
     field.fill(f"{wanted:.3f}")

@@ -38,6 +38,9 @@ export const ACTIONS = [
   {id: "pull", words: "Pull: the hull around follows", keys: ["u"], label: () => "Pull", pressed: (page) => page.store.tools.how === "pull", run: (page) => page.use("pull")},
   {id: "move", words: "Move: the point alone, along its freedom", keys: ["p"], label: () => "Move", pressed: (page) => page.store.tools.how === "move", run: (page) => page.use("move")},
   {id: "fine", words: "Fine: the point goes a tenth of the way of the hand", keys: ["e"], label: () => "Fine", pressed: (page) => page.store.tools.fine, run: (page) => page.toggleFine()},
+  {id: "fair-pull", words: "Answer pulls fairly: shown before it is made", keys: ["j"], label: () => "Answer fairly", pressed: (page) => page.store.tools.fair, run: (page) => page.toggleTool("fair")},
+  {id: "pinned", words: "Pinned: placed points move alone, their line is not led", keys: ["l"], label: () => "Pinned", pressed: (page) => page.store.tools.pinned, run: (page) => page.toggleTool("pinned")},
+  {id: "insert", words: "Insert a point into the chosen line, by a click", keys: ["i"], label: () => "Insert a point", enabled: (page) => page.store.selection.curve !== null, run: (page) => page.insert()},
   {id: "undo", words: "Undo your last edit", keys: ["Ctrl+z"], label: () => "Undo", enabled: (page) => page.hand.free && page.store.history.undo !== null, run: (page) => page.undo()},
   {id: "redo", words: "Redo what was taken back", keys: ["Ctrl+Shift+z", "Ctrl+y"], label: () => "Redo", enabled: (page) => page.hand.free && page.store.history.redo !== null, run: (page) => page.redo()},
   toggle("combs", "Curvature combs", "k"),
@@ -67,6 +70,11 @@ export const ACTIONS = [
     page.panel.open("Problems");
     page.panel.problems.ask();
   }},
+  {id: "why", words: "Why the chosen point or line moved last", keys: ["w"], run: (page) => page.panel.open("Why")},
+  {id: "history", words: "History: all steps, going back, comparing", keys: ["h"], run: (page) => page.panel.open("History")},
+  {id: "hydrostatics", words: "Hydrostatics and sectional areas", keys: ["y"], run: (page) => page.panel.open("Hydrostatics")},
+  {id: "fairing", words: "Fairing: the waviest lines, a window", keys: ["Shift+f"], run: (page) => page.panel.open("Fair")},
+  {id: "export", words: "Write a lines plan, offsets, a drawing", keys: ["x"], run: (page) => page.panel.open("Export")},
   {id: "theme", words: "Light, dark, or as the system", keys: ["t"], label: () => "Theme", run: (page) => page.nextTheme()},
   {id: "keys", words: "All keys", keys: ["?"], label: () => "Keys", run: (page) => page.sheet()},
 ];

@@ -35,6 +35,8 @@ export class Pointers {
     upper.addEventListener("wheel", (event) => this.#wheel(event), {passive: false});
     upper.addEventListener("contextmenu", (event) => event.preventDefault());
     this.hand.onGrip = null;
+    /** Told where a point is to be inserted. @type {((place: number[] | null) => void) | null} */
+    this.onInsert = null;
   }
 
   /** @param {MouseEvent} event @returns {[number, number]} */
@@ -55,6 +57,7 @@ export class Pointers {
       return;
     }
     if (this.press) return;
+    if (store.inserting !== null && event.button === 0 && view.kind !== "wire") return this.onInsert?.(this.#placeOn(store.inserting, x, y));
     if (store.refusal || store.problem) {
       store.refusal = store.problem = null;
       store.changed("overlay", "panel");
@@ -73,6 +76,17 @@ export class Pointers {
     const curve = event.button === 0 ? nearestCurve(view, x, y, reach / 2) : null;
     this.press = {...base, row: null, mode: view.kind === "wire" && event.button === 0 ? "turn" : curve === null ? "pan" : "curve"};
     if (curve !== null) store.select(null, curve);
+  }
+
+  /** The place in the plane of a line that is seen at a pixel; null where the view shows the plane as a line. @param {number} curve @param {number} x @param {number} y */
+  #placeOn(curve, x, y) {
+    const {view, store} = this, line = store.net?.lineOf(curve);
+    if (!line || line.axis === null || line.offset === null || line.axis === view.a || line.axis === view.b) return null;
+    const place = [0, 0, 0], s = view.kind === "body" ? view.side(line.offset) : 1;
+    place[line.axis] = line.offset;
+    place[view.a] = s * (x - view.axis.o) / view.axis.s;
+    place[view.b] = (view.oy - y) / view.sy;
+    return place;
   }
 
   /** @param {PointerEvent} event */

@@ -27,6 +27,10 @@ export class Hand {
     this.committing = null;
     /** @type {(() => void) | null} */
     this.onGrip = null;
+    /** Called when something is taken hold of. @type {(() => void) | null} */
+    this.onBegin = null;
+    /** May take over what was asked for, to be looked at before it is made. @type {((held: Held, wish: Wish) => boolean) | null} */
+    this.onLet = null;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
     /** What each step in flight asked for, and when. @type {Map<number, {amount: number | null, time: number}>} */
@@ -42,6 +46,7 @@ export class Hand {
   begin(row, how) {
     const start = this.store.places.get(row);
     if (!start || !this.free) return false;
+    this.onBegin?.();
     this.gesture++;
     this.gripped = false;
     this.wish = this.last = null;
@@ -130,6 +135,7 @@ export class Hand {
     const held = this.store.held;
     if (!held) return;
     if (!held.held || !this.last || !held.amount) return this.cancel();
+    if (!held.refused && this.onLet?.(held, this.last)) return this.cancel();
     const name = this.store.net?.points.get(held.row)?.name ?? "a point", far = (1e3 * held.amount).toFixed(1);
     this.committing = {gesture: this.gesture, row: held.row, seq: ++this.seq};
     this.send({t: "commit", gesture: this.gesture, seq: this.seq, ...this.last, name: `${held.how} ${name} by ${far} mm`});

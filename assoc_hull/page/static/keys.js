@@ -42,7 +42,7 @@ export class Keys {
       else this.#nudge(ARROWS[event.key], event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
       return;
     }
-    if (drawing && event.key === "Enter" && this.burst) return this.finish();
+    if (drawing && event.key === "Enter") return this.burst ? this.finish() : void page.panel.proposal.apply();
     if (!drawing && !key.startsWith("Ctrl") && key !== "/" && key !== "?") return;
     const action = actionOf(page, key);
     if (!action) return;
@@ -61,7 +61,10 @@ export class Keys {
     } else if (store.refusal || store.problem) {
       store.refusal = store.problem = null;
       store.changed("overlay", "panel");
-    } else if (store.ghost) page.panel.vary.drop();
+    } else if (store.inserting !== null) {
+      store.inserting = null;
+      page.say("No point is inserted.");
+    } else if (store.ghost || page.shower) page.dropGhost();
     else if (field) page.leaveField(field);
     else if (store.maximised) page.maximise(/** @type {import("./view.js").Kind} */ (store.maximised));
     else store.select(null, null);

@@ -1,5 +1,7 @@
 // Two lists in the panel: the points of the chosen curve, and what is wrong with the hull.
 
+import {link} from "./asker.js";
+
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {{kind: string, object: string, place: number[] | null, text: string}} Finding */
 
@@ -18,16 +20,6 @@ export function alongCurve(store, id) {
     return best;
   };
   return rows.map((row) => ({row, at: where(row)})).sort((p, q) => p.at - q.at).map(({row}) => row);
-}
-
-/** @param {string} words @param {() => void} run */
-function link(words, run) {
-  const button = document.createElement("button");
-  button.type = "button";
-  button.className = "link";
-  button.textContent = words;
-  button.onclick = run;
-  return button;
 }
 
 /** The points of the chosen curve, as a table; it is made anew when another curve or state is shown. */
@@ -105,6 +97,15 @@ export class Problems {
     this.page.say(this.#words());
     this.render();
   }
+
+  /** @param {any} _message */
+  done(_message) {}
+
+  /** @param {any} _message */
+  refused(_message) { return false; }
+
+  /** @param {any} _message */
+  problem(_message) { return false; }
 
   #words() {
     const n = this.found?.length ?? 0;

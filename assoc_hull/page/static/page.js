@@ -4,7 +4,7 @@ import {ACTIONS, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
 import {Keys} from "./keys.js";
 import {GHOST, LIVE, NET, VERSION, parseFrame} from "./wire.js";
-import {Net} from "./net.js";
+import {CROSSING, Net} from "./net.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
 import {Speaker} from "./speak.js";
@@ -56,6 +56,9 @@ export class Page {
     this.pointers = Object.fromEntries(KINDS.map((kind) => [kind, new Pointers(this.views[kind], this.hand)]));
     this.hand.scale = () => Math.max(...["body", "profile", "half"].map((kind) => this.views[kind].shown ? Math.max(this.views[kind].axis.s, this.views[kind].sy) : 0));
     this.hand.onGrip = () => Object.values(this.pointers).forEach((each) => each.track());
+    this.hand.onBegin = () => this.dropGhost();
+    this.hand.onLet = (held, wish) => this.#proposed(held, wish);
+    for (const kind of KINDS) this.pointers[kind].onInsert = (place) => this.#insertAt(place);
     for (const kind of KINDS) this.views[kind].upper.addEventListener("focus", () => this.#look(kind));
     this.active = /** @type {Kind} */ ("body");
     this.panel = new Panel(this, aside);
@@ -63,6 +66,9 @@ export class Page {
     this.panelStale = true;
     this.pending = 0;
     this.number = 0;
+    /** The number of the ghost that is waited for or shown, and who asked for it. */
+    this.wanted = 0;
+    this.shower = /** @type {{dropped: () => void} | null} */ (null);
     /** @type {any} */
     this.message = null;
     this.ink = readInk(root);
@@ -100,19 +106,21 @@ export class Page {
       store.changed("panel");
     } else if (message.t === "grip") hand.grip(message);
     else if (message.t === "refused") {
-      if (!hand.refused(message) && message.id) this.#refusedHere(message);
+      if (!hand.refused(message) && message.id) {
+        const told = this.panel.askers.some((each) => each.refused(message));
+        if (!told) this.#refusedHere(message);
+      }
     } else if (message.t === "done") {
       hand.done(message);
-      this.panel.vary.done(message);
+      for (const each of this.panel.askers) each.done(message);
       store.last = message;
       this.say(`${message.name}: ${message.relofted} curves followed.`);
       store.changed("panel");
     } else if (message.t === "answer") {
-      this.panel.problems.answer(message);
-      this.panel.vary.answer(message);
+      for (const each of this.panel.askers) each.answer(message);
     }
     else if (message.t === "problem") {
-      if (this.panel.vary.problem(message)) return;
+      if (this.panel.askers.some((each) => each.problem(message))) return;
       hand.problem(message);
       store.problem = message.text;
       store.changed("panel", "overlay");
@@ -134,6 +142,7 @@ export class Page {
       const first = store.net === null, net = new Net(this.message);
       hand.drop();
       store.adopt(net, frame);
+      this.dropGhost();
       this.root.ownerDocument.title = `${net.particulars.name} – fairing page`;
       this.bar.name(net.particulars, net.lines.length, net.points.size);
       if (first) this.fit();
@@ -144,11 +153,14 @@ export class Page {
       hand.asked.delete(frame.seq);
     } else if (frame.kind === GHOST) {
       // One of a state that has passed would be compared with another hull.
-      if (frame.state === store.state) {
+      if (frame.state === store.state && frame.seq === this.wanted) {
         store.ghost = frame;
         store.changed("overlay");
       }
-    } else store.publish(frame);
+    } else {
+      store.publish(frame);
+      this.dropGhost();
+    }
   }
 
   /** @param {"lost" | "over"} how @param {string} reason */
@@ -224,6 +236,40 @@ export class Page {
     this.status.textContent = words;
   }
 
+  /** A fair answer and a lead are looked at before they are made. @param {import("./store.js").Held} held @param {Record<string, number>} wish */
+  #proposed(held, wish) {
+    const {tools, net} = this.store, point = net?.points.get(held.row), far = (1e3 * (held.amount ?? 0)).toFixed(1);
+    if (!point) return false;
+    if (held.how === "pull" && tools.fair) this.panel.proposal.show(`pull ${point.name} by ${far} mm, answered fairly`, [{op: "pull", point: point.name, d: wish.d, radius: held.radius, fair: true}]);
+    else if (held.how === "move" && point.sort !== CROSSING && !tools.pinned) this.panel.proposal.show(`lead ${net?.curveName(point.a)} by ${point.name}, ${far} mm`, [{op: "move", point: point.name, ...wish, lead: true}]);
+    else return false;
+    return true;
+  }
+
+  /** The next click inserts a point into the chosen line. */
+  insert() {
+    const {selection} = this.store;
+    if (selection.curve === null) return this.say("Choose a line first: click it.");
+    this.store.inserting = selection.curve;
+    this.dropGhost();
+    this.say("Click where the line is to go through: beside it, the line is led there. Esc cancels.");
+  }
+
+  /** @param {number[] | null} place */
+  #insertAt(place) {
+    const {store} = this, id = store.inserting, name = id === null ? "" : store.net?.curveName(id) ?? "";
+    if (!place) return this.say(`Click in the view that shows ${name} in its plane. Esc cancels.`);
+    store.inserting = null;
+    this.panel.proposal.show(`insert a point into ${name} at (${place.map((each) => each.toFixed(3)).join(", ")}) m`, [{op: "insert", curve: name, place, lead: !store.tools.pinned}]);
+  }
+
+  /** @param {"fair" | "pinned"} what */
+  toggleTool(what) {
+    this.store.tools[what] = !this.store.tools[what];
+    this.store.changed("panel");
+    this.keep();
+  }
+
   activeView() { return this.views[this.store.maximised ?? this.active]; }
 
   /** @param {Kind} kind */
@@ -250,6 +296,15 @@ export class Page {
     return this.number;
   }
 
+  /** Removes the ghost; one that is still to come is not shown. */
+  dropGhost() {
+    const {store, shower} = this;
+    this.wanted = 0;
+    this.shower = store.ghost = null;
+    shower?.dropped();
+    store.changed("overlay");
+  }
+
   undo() { this.request({t: "undo"}); }
 
   redo() { this.request({t: "redo"}); }
@@ -257,7 +312,7 @@ export class Page {
   /** @param {string} name @param {object[]} ops */
   apply(name, ops) {
     this.store.refusal = this.store.problem = null;
-    this.request({t: "apply", name: name.slice(0, 190), ops});
+    return this.request({t: "apply", name: name.slice(0, 190), ops});
   }
 
   /** @param {string} name */
@@ -396,15 +451,17 @@ export class Page {
 
   keep() {
     const {show, tools, gain, squeeze, theme} = this.store;
-    this.options.keep("looks", JSON.stringify({show, how: tools.how, fine: tools.fine, gain, squeeze, theme}));
+    this.options.keep("looks", JSON.stringify({show, how: tools.how, fine: tools.fine, fair: tools.fair, pinned: tools.pinned, gain, squeeze, theme}));
   }
 
   #restore() {
     try {
-      const {show, how, fine, gain, squeeze, theme} = JSON.parse(this.options.kept("looks") ?? "{}");
+      const {show, how, fine, fair, pinned, gain, squeeze, theme} = JSON.parse(this.options.kept("looks") ?? "{}");
       for (const name of /** @type {(keyof Store["show"])[]} */ (Object.keys(this.store.show))) if (typeof show?.[name] === "boolean") this.store.show[name] = show[name];
       if (how === "pull" || how === "move") this.store.tools.how = how;
       this.store.tools.fine = fine === true;
+      this.store.tools.fair = fair === true;
+      this.store.tools.pinned = pinned === true;
       if (gain > 0 && gain < 100) this.store.gain = gain;
       if ([1, 2, 5, 10].includes(squeeze)) this.store.squeeze = squeeze;
       if (["auto", "light", "dark"].includes(theme)) this.store.theme = theme;

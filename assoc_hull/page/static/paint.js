@@ -136,7 +136,7 @@ export function paintOverlay(view, ink) {
 function noteOf(view) {
   const words = [];
   if (view.kind === "wire") return "";
-  if (view.store.overlay && view.store.show.movement && view.magnified) words.push(`movement × ${view.magnified.toLocaleString("en")}`);
+  if ((view.store.overlay || view.store.ghost) && view.store.show.movement && view.magnified) words.push(`movement × ${view.magnified.toLocaleString("en")}`);
   const tall = view.sy / view.axis.s;
   if (tall > 1.01) words.push(`heights × ${tall.toFixed(1)}`);
   return words.join(" · ");
@@ -155,10 +155,18 @@ function stroke(view, g, id, colour, width) {
 
 /** A variant that is shown, dashed. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame */
 function drawGhost(view, g, ink, frame) {
+  const {net, curves, show, overlay} = view.store, moved = movementOf(frame, curves);
+  const seen = (/** @type {number} */ id) => {
+    const line = net?.lineOf(id);
+    return line !== undefined && view.shows(line);
+  };
   g.beginPath();
   for (const [id, c] of frame.curves) {
-    const line = view.store.net?.lineOf(id);
-    if (line && view.shows(line)) view.trace(g, c, line);
+    const line = net?.lineOf(id), by = moved.get(id);
+    if (!line || !view.shows(line)) continue;
+    const far = (/** @type {number} */ i) => by ? Math.hypot(by[3 * i], by[3 * i + 1], by[3 * i + 2]) : Infinity;
+    // What lies where it is published would only hide it.
+    view.trace(g, c, line, by ? (i) => Math.max(far(i), far(i + 1)) >= LEAST_MOVED : undefined);
   }
   g.strokeStyle = ink.live;
   g.lineWidth = view.kind === "wire" ? 0.7 : 1;
@@ -167,6 +175,7 @@ function drawGhost(view, g, ink, frame) {
   g.stroke();
   g.globalAlpha = 1;
   g.setLineDash([]);
+  if (show.movement && !overlay && view.kind !== "wire") drawSpikes(view, g, ink, frame, moved, Math.max(farthest(frame, curves, seen), 1e-3));
 }
 
 /** Stretches that moved, in three strengths by how far, and the movement itself, magnified. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame @param {boolean} predicted */

@@ -1,10 +1,19 @@
 // The panel at the right: the point, its curve, what the edit does, who signs.
 
+import {ACTIONS, keyWords} from "./actions.js";
+import {button} from "./asker.js";
 import {inflections} from "./comb.js";
 import {arcLength} from "./hermite.js";
 import {farthest} from "./paint.js";
 import {PointTable, Problems} from "./lists.js";
+import {Fairing} from "./fair.js";
+import {Files} from "./files.js";
+import {Numbers} from "./numbers.js";
+import {Past} from "./past.js";
+import {Proposal} from "./propose.js";
 import {Vary} from "./vary.js";
+import {WhyPanel} from "./why.js";
+import {CROSSING} from "./net.js";
 import {millimetres, signed} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
@@ -12,15 +21,15 @@ import {millimetres, signed} from "./units.js";
 const AXES = ["x", "y", "z"];
 const WAYS = ["forward of AP", "from the centre plane", "above the base line"];
 const PLANES = /** @type {Record<string, [number, number]>} */ ({sections: [1, 2], frames: [1, 2], waterlines: [0, 1], diagonals: [0, 1]});
-
+const OPEN = ["Proposal", "Point", "Curve", "Edit", "Pull", "Signed as"];
 
 export class Panel {
   /** @param {Page} page @param {HTMLElement} element */
   constructor(page, element) {
     this.page = page;
-    this.parts = Object.fromEntries(["Point", "Curve", "Edit", "Pull", "Vary", "Points", "Problems", "Signed as"].map((title) => {
+    this.parts = Object.fromEntries(["Proposal", "Point", "Curve", "Edit", "Pull", "Why", "History", "Hydrostatics", "Fair", "Vary", "Points", "Problems", "Export", "Signed as"].map((title) => {
       const box = document.createElement("details"), head = document.createElement("summary"), heading = document.createElement("h2"), body = document.createElement("div");
-      box.open = title !== "Vary" && title !== "Points" && title !== "Problems";
+      box.open = OPEN.includes(title);
       box.ontoggle = () => page.store.changed("panel");
       heading.textContent = title;
       head.append(heading);
@@ -36,8 +45,25 @@ export class Panel {
     this.points = new PointTable(page, this.parts.Points);
     this.vary = new Vary(page, this.parts.Vary);
     this.problems = new Problems(page, this.parts.Problems);
+    this.proposal = new Proposal(page, this.parts.Proposal);
+    this.why = new WhyPanel(page, this.parts.Why);
+    this.past = new Past(page, this.parts.History);
+    this.numbers = new Numbers(page, this.parts.Hydrostatics);
+    this.fair = new Fairing(page, this.parts.Fair);
+    /** All that ask the server: an answer is for one of them. */
+    this.askers = [this.proposal, this.why, this.past, this.numbers, this.fair, this.vary, this.problems, new Files(page, this.parts.Export)];
     this.radii = [0, 1].map((i) => this.#radius(i));
+    this.switches = ["fair-pull", "pinned", "insert"].map((id) => {
+      const action = /** @type {import("./actions.js").Action} */ (ACTIONS.find((each) => each.id === id)), found = button(action.label?.(page) ?? "", () => action.run(page));
+      found.dataset.action = id;
+      found.title = `${action.words} (${action.keys.map(keyWords).join(", ")})`;
+      return {action, found};
+    });
     this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
+    const form = document.createElement("div");
+    form.className = "form";
+    form.append(...this.switches.map(({found}) => found));
+    this.parts.Pull.append(form);
   }
 
   /** @param {number} i */
@@ -57,6 +83,10 @@ export class Panel {
 
   render() {
     const radius = this.page.store.tools.radius;
+    for (const {action, found} of this.switches) {
+      found.disabled = !(action.enabled?.(this.page) ?? true);
+      if (action.pressed) found.setAttribute("aria-pressed", String(action.pressed(this.page)));
+    }
     this.radii.forEach((field, i) => {
       if (radius && field !== document.activeElement) field.value = radius[i].toFixed(1);
     });
@@ -64,10 +94,10 @@ export class Panel {
     this.#curve();
     this.#edit();
     this.points.render();
-    this.problems.render();
+    for (const each of this.askers) each.render();
   }
 
-  /** Opens a part, and gives it the focus. @param {"Points" | "Problems"} title */
+  /** Opens a part, and gives it the focus. @param {string} title */
   open(title) {
     const box = this.parts[title].closest("details");
     if (!box) return;
@@ -161,8 +191,10 @@ export class Panel {
   /** @param {import("./net.js").Point} point */
   #enter(point) {
     const values = Object.fromEntries([...point.free].map((name) => [name, Number(this.fields[AXES.indexOf(name)].value.replace(",", ".").trim() || NaN)]));
+    const {tools} = this.page.store;
     const wrong = Object.entries(values).find(([, value]) => !Number.isFinite(value));
     if (wrong) return this.page.say(`${wrong[0]} is no number of metres: type one such as 6.953`);
+    if (point.sort !== CROSSING && !tools.pinned) return this.page.panel.proposal.show(`lead ${this.page.store.net?.curveName(point.a)} by ${point.name}`, [{op: "move", point: point.name, ...values, lead: true}]);
     this.page.apply(`place ${point.name} at ${Object.entries(values).map(([name, value]) => `${name} ${value}`).join(", ")}`, [{op: "move", point: point.name, ...values}]);
   }
 

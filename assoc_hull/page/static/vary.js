@@ -1,18 +1,10 @@
 // Named parameters of the hull: a wanted value is shown as a ghost, then made as one edit.
 
+import {button} from "./asker.js";
 import {millimetres, signed} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {{name: string, unit: string, meaning: string, value: number | null, low: number | null, high: number | null, reason: string | null}} Parameter */
-
-/** @param {string} words @param {() => void} run */
-function button(words, run) {
-  const found = document.createElement("button");
-  found.type = "button";
-  found.textContent = words;
-  found.onclick = run;
-  return found;
-}
 
 /** @param {Parameter} found @param {string} unit */
 function spanWords({low, high}, unit) {
@@ -74,21 +66,29 @@ export class Vary {
       this.words.textContent = `${this.field.value || "Nothing"} is no number: type one such as ${found.value?.toFixed(3)}`;
       return;
     }
-    this.drop();
+    this.page.dropGhost();
     this.what = apply ? "edit" : "ghost";
     this.asked = this.page.request({t: "vary", set: {[found.name]: value}, apply});
+    if (!apply) {
+      this.page.wanted = this.asked;
+      this.page.shower = this;
+    }
     this.words.textContent = apply ? "Varying the hull …" : "Making the ghost …";
   }
 
   /** Removes the ghost; an answer that is still to come shows none. */
-  drop() {
-    const {store} = this.page;
+  drop() { this.page.dropGhost(); }
+
+  /** It was removed, here or elsewhere. */
+  dropped() {
     if (this.what === "ghost") this.asked = 0;
     this.words.textContent = "";
-    if (!store.ghost) return;
-    store.ghost = null;
-    store.changed("overlay");
   }
+
+  render() {}
+
+  /** @param {{id: number, reasons: string[]}} message */
+  refused(message) { return this.problem({id: message.id, text: message.reasons.join("\n")}); }
 
   /** @param {{id: number, value: any}} message */
   answer(message) {

@@ -1,0 +1,65 @@
+"""What panels ask about the hull in numbers and words: hydrostatics, sectional areas, why."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
+from assoc_hull.analysis.hydrostatics.record import FIELDS, Hydrostatics, RecordField
+from assoc_hull.analysis.hydrostatics.section_areas import sectional_areas
+from assoc_hull.edit.explain.causes import Why
+from assoc_hull.hull.hull import Hull
+
+__all__ = ["describe_hydrostatics", "describe_why"]
+
+_SHOWN = ("volume", "displacement", "lcb", "kb", "bmt", "bml", "kmt", "lcf", "waterplane_area",
+          "wetted_surface", "lwl", "bwl", "cb", "cp", "cm", "cw")  # fmt: skip
+_MOST = 12
+"""Causes below one thing that are told; the others are counted."""
+
+_DEEPEST = 40
+
+
+def describe_hydrostatics(now: Hull, then: Hull) -> dict[str, Any]:
+    """Measure two copies at their design draught: values and sectional areas of now and then.
+
+    What cannot be measured is None. Areas are m2, of both sides, at x in m from AP.
+    """
+    after, before = (each.hydrostatics(on_error="report") for each in (now, then))
+    return {
+        "draught": now.particulars.draught,
+        "values": [_value(FIELDS[name], before, after) for name in _SHOWN],
+        "notes": list(after.notes),
+        "areas": _areas(now), "areas_before": _areas(then),
+    }  # fmt: skip
+
+
+def _value(field: RecordField, before: Hydrostatics, after: Hydrostatics) -> dict[str, Any]:
+    value, old = getattr(after, field.name), getattr(before, field.name)
+    return {
+        "name": field.symbol, "unit": field.unit, "meaning": field.title, "digits": field.digits,
+        "value": value,
+        "change": None if value is None or old is None else value - old,
+        "error": after.error.get(field.name),
+    }  # fmt: skip
+
+
+def _areas(hull: Hull) -> list[list[float]]:
+    draught = hull.particulars.draught
+    found = sectional_areas(hull, FloatingPosition(draught, draught))
+    return [found.x.tolist(), found.area[0].tolist()]
+
+
+def describe_why(why: Why) -> dict[str, Any]:
+    """Give the causes of a change as a tree: each with its name, and what happened to it."""
+    return {"edit": why.edit, "step": why.step, "because": why.because, "tree": _cause(why, 0)}
+
+
+def _cause(why: Why, depth: int) -> dict[str, Any]:
+    shown = why.causes[:_MOST] if depth < _DEEPEST else ()
+    return {
+        "name": why.name, "what": why.what, "moved": why.moved,
+        "left": why.left + len(why.causes) - len(shown),
+        "stopped": list(why.stopped[:_MOST]),
+        "causes": [_cause(each, depth + 1) for each in shown],
+    }  # fmt: skip

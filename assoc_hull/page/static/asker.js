@@ -1,0 +1,85 @@
+// What panels that ask the server have in common: a number for the answer, words, a place for what fails.
+
+/** @typedef {import("./page.js").Page} Page */
+
+const PAUSE = 250; // ms: not at every step of a burst of edits
+
+/** @param {string} words @param {() => void} run */
+export function button(words, run) {
+  const found = document.createElement("button");
+  found.type = "button";
+  found.textContent = words;
+  found.onclick = run;
+  return found;
+}
+
+/** @param {string} words @param {() => void} run */
+export function link(words, run) {
+  const found = button(words, run);
+  found.className = "link";
+  return found;
+}
+
+/** @param {string} words @param {string} [name] */
+export function paragraph(words, name = "") {
+  const found = document.createElement("p");
+  found.textContent = words;
+  found.className = name;
+  return found;
+}
+
+export class Asker {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    this.page = page;
+    this.box = box;
+    this.asked = 0;
+    this.key = "";
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.timer = undefined;
+    this.words = paragraph("");
+    this.words.setAttribute("role", "status");
+    this.list = document.createElement("div");
+  }
+
+  get open() { return this.box.closest("details")?.open ?? false; }
+
+  /** @param {object} message @param {string} words */
+  ask(message, words) {
+    this.asked = this.page.request(message);
+    this.words.textContent = words;
+  }
+
+  /** Asks for a ghost: one that comes later for somebody else is not shown. @param {object} message @param {string} words */
+  askGhost(message, words) {
+    this.page.dropGhost();
+    this.ask(message, words);
+    this.page.wanted = this.asked;
+    this.page.shower = this;
+  }
+
+  /** Asks anew when what is shown is of another state, while it can be seen. @param {string} key @param {() => void} load */
+  fresh(key, load) {
+    const {store} = this.page;
+    if (!this.open || store.connection !== "open" || store.held || !store.net || key === this.key) return;
+    this.key = key;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(load, PAUSE);
+  }
+
+  /** The ghost was taken away, by Esc or by another. */
+  dropped() { this.words.textContent = ""; }
+
+  /** @param {any} _message */
+  done(_message) {}
+
+  /** A refusal stands here, where it was asked. @param {{id: number, text: string}} message */
+  problem(message) {
+    if (!message.id || message.id !== this.asked) return false;
+    this.words.textContent = message.text;
+    return true;
+  }
+
+  /** @param {{id: number, reasons: string[]}} message */
+  refused(message) { return this.problem({id: message.id, text: message.reasons.join("\n")}); }
+}

@@ -1,0 +1,138 @@
+// Fairing: where the hull is wavy, and a window of it that is faired with a noise that a slider sets.
+
+import {Asker, button, link, paragraph} from "./asker.js";
+import {costWords} from "./propose.js";
+import {millimetres} from "./units.js";
+
+const LEAST = 1e-4, TIMES = 2000; // m: the slider goes from 0.1 to 200 mm
+
+/** @typedef {{line: string, largest: number, ratio: number, at: string, inflections: number | null}} Wavy */
+
+export class Fairing extends Asker {
+  /** @param {import("./page.js").Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    super(page, box);
+    /** @type {"list" | "ghost" | "edit"} */
+    this.what = "list";
+    /** @type {{row: number, name: string, noise: number, radius: number[], state: number} | null} */
+    this.window = null;
+    this.waiting = false;
+    this.slider = document.createElement("input");
+    this.slider.type = "range";
+    Object.assign(this.slider, {min: "0", max: "100", step: "1", value: "40"});
+    this.slider.setAttribute("aria-label", "noise that is taken out, mm");
+    this.slider.oninput = () => this.#look();
+    this.noise = paragraph("");
+    this.make = button("Apply", () => this.#make());
+    const form = document.createElement("div");
+    form.className = "form";
+    form.append(this.noise, this.slider, button("Preview", () => this.#look()), this.make, button("Give up", () => page.dropGhost()));
+    box.append(button("List the waviest lines", () => this.#list()), form, this.words, this.list);
+  }
+
+  #value() { return LEAST * TIMES ** (Number(this.slider.value) / 100); }
+
+  render() {
+    const value = this.#value(), row = this.page.store.selection.row, point = row === null ? undefined : this.page.store.net?.points.get(row), radius = this.page.store.tools.radius;
+    const where = point && radius ? `around ${point.name}, ${radius[0].toFixed(1)} × ${radius[1].toFixed(1)} m` : "around the chosen point: click one first";
+    this.slider.setAttribute("aria-valuetext", millimetres(value));
+    const words = `Take out noise of ${(1e3 * value).toFixed(1)} mm ${where}`;
+    if (this.noise.textContent !== words) this.noise.textContent = words;
+    if (this.window && this.window.state !== this.page.store.state) this.window = null;
+    this.make.disabled = this.what !== "ghost" || !this.window || this.waiting;
+  }
+
+  #list() {
+    this.page.dropGhost();
+    this.what = "list";
+    this.ask({t: "fairness"}, "Laying battens along all lines …");
+  }
+
+  #look() {
+    const {store} = this.page, {row} = store.selection, radius = store.tools.radius, point = row === null ? undefined : store.net?.points.get(row);
+    store.changed("panel");
+    if (row === null || !point || !radius) {
+      this.words.textContent = "Click a point first: the window lies around it. Its size is that of a pull.";
+      return;
+    }
+    const noise = this.#value();
+    this.askGhost({t: "window", row, noise, radius}, "Fairing the window …");
+    this.what = "ghost";
+    this.waiting = true;
+    this.window = {row, name: point.name, noise, radius, state: store.state};
+  }
+
+  #make() {
+    const {window: found, page} = this;
+    if (!found) return;
+    this.what = "edit";
+    this.asked = page.apply(`fair around ${found.name}, noise ${(1e3 * found.noise).toFixed(1)} mm`, [{op: "fair", at: found.name, radius: found.radius, noise: found.noise}]);
+    this.words.textContent = "Fairing the hull …";
+  }
+
+  dropped() {
+    super.dropped();
+    this.window = null;
+    this.page.store.changed("panel");
+  }
+
+  /** @param {{id: number}} message */
+  done(message) {
+    if (!message.id || message.id !== this.asked) return;
+    this.window = null;
+    this.words.textContent = "The window is faired: one edit. Ctrl+Z takes it back.";
+  }
+
+  /** @param {{id: number, text: string}} message */
+  problem(message) {
+    const mine = super.problem(message);
+    if (mine) {
+      this.window = null;
+      this.page.store.changed("panel");
+    }
+    return mine;
+  }
+
+  /** @param {{id: number, value: any}} message */
+  answer(message) {
+    if (message.id !== this.asked || !message.value) return;
+    if (this.what === "list") return this.#show(message.value);
+    if (this.what !== "ghost") return;
+    const {refused, moved, points} = message.value;
+    this.waiting = refused.length > 0;
+    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : `Dashed: ${costWords(message.value)}; ${moved} of ${points} points move by more than 0.1 mm. Nothing is changed yet.`;
+    this.page.say(this.words.textContent);
+    this.page.store.changed("panel");
+  }
+
+  /** @param {{lines: Wavy[], unfair: {line: string, point: string, residual: number, ratio: number}[], points: {point: string, off: number, score: number, alarm: boolean}[]}} found */
+  #show({lines, unfair, points}) {
+    this.words.textContent = `${unfair.length ? `${unfair.length} unfair ${unfair.length === 1 ? "place" : "places"}` : "No unfair place"}; ${points.filter(({alarm}) => alarm).length} points look wrong.`;
+    const table = document.createElement("table"), caption = table.createCaption(), head = table.createTHead().insertRow(), body = table.createTBody();
+    caption.textContent = "The waviest lines: how far a batten springs at most, times the usual beside, inflections";
+    for (const title of ["line", "springs", "× usual", "turns"]) {
+      const cell = document.createElement("th");
+      cell.scope = "col";
+      cell.textContent = title;
+      head.append(cell);
+    }
+    for (const each of lines) {
+      const row = body.insertRow();
+      row.insertCell().append(link(each.line, () => this.#fly(each.at, each.line)));
+      for (const words of [millimetres(each.largest), each.ratio.toFixed(1), each.inflections === null ? "–" : String(each.inflections)]) row.insertCell().textContent = words;
+    }
+    const list = (/** @type {string} */ title, /** @type {HTMLElement[]} */ rows) => rows.length ? [paragraph(title), ...rows] : [];
+    this.list.replaceChildren(table,
+      ...list("Unfair places", unfair.map((each) => link(`${each.point} on ${each.line}: springs ${millimetres(each.residual)}, ${each.ratio.toFixed(1)} times the usual`, () => this.#fly(each.point, each.line)))),
+      ...list("Points that their lines do not bear out", points.map((each) => link(`${each.point}: ${millimetres(Math.abs(each.off))} too far ${each.off > 0 ? "out" : "in"}, score ${each.score.toFixed(1)}${each.alarm ? "" : " (not called wrong)"}`, () => this.#fly(each.point, each.point.split(" x ")[0])))));
+  }
+
+  /** Goes to a place, near enough to see it. @param {string} point @param {string} line */
+  #fly(point, line) {
+    const {page} = this, {net} = page.store, curve = [...(net?.curves ?? [])].find(([, each]) => each.line.name === line || each.name === line)?.[0] ?? null;
+    const found = net?.find(point) ?? null;
+    if (found === null && curve === null) return page.find(point);
+    page.choose(found, curve);
+    page.fly(4);
+  }
+}

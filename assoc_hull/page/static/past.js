@@ -1,0 +1,94 @@
+// The history: all steps with their authors; going to one, looking at it beside the present, naming it.
+
+import {Asker, button, link, paragraph} from "./asker.js";
+import {millimetres, signed} from "./units.js";
+
+/** @typedef {{number: number, parent: number, name: string, way: number, author: string, time: string, normal: number | null}} Step */
+
+/** @param {string} time */
+const clock = (time) => time ? new Date(time).toLocaleString([], {dateStyle: "short", timeStyle: "short"}) : "";
+
+export class Past extends Asker {
+  /** @param {import("./page.js").Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    super(page, box);
+    /** @type {"list" | "ghost" | "go"} */
+    this.what = "list";
+    this.name = document.createElement("input");
+    this.name.setAttribute("aria-label", "name of the present state");
+    this.name.placeholder = "name of this state";
+    this.name.maxLength = 80;
+    this.name.onkeydown = (event) => {
+      if (event.key === "Enter") this.#keep();
+    };
+    const form = document.createElement("div");
+    form.className = "form";
+    form.append(this.name, button("Keep under this name", () => this.#keep()));
+    box.append(form, this.words, this.list);
+  }
+
+  render() {
+    this.fresh(String(this.page.store.state), () => {
+      this.what = "list";
+      this.asked = this.page.request({t: "steps"});
+    });
+  }
+
+  #keep() {
+    if (!this.name.value.trim()) {
+      this.words.textContent = "Type a name for the state first.";
+      return;
+    }
+    this.what = "list";
+    this.ask({t: "checkpoint", name: this.name.value.trim()}, "");
+    this.name.value = "";
+  }
+
+  /** @param {number} step */
+  #go(step) {
+    this.what = "go";
+    this.ask({t: "go", step}, "");
+  }
+
+  /** @param {number} step */
+  #compare(step) {
+    this.askGhost({t: "compare", step}, "Looking back …");
+    this.what = "ghost";
+  }
+
+  /** @param {{id: number, value: any}} message */
+  answer(message) {
+    if (message.id !== this.asked) return;
+    if (this.what === "go") {
+      this.words.textContent = "The hull is at that state; what was left is kept in this list.";
+      this.page.say(this.words.textContent);
+    } else if (this.what === "ghost") {
+      const {count, lines, volume, lcb} = message.value;
+      const figures = [volume && `V ${signed(volume[1] - volume[0], 2, "m³")}`, lcb && `LCB ${signed(lcb[1] - lcb[0], 4, "m")}`].filter(Boolean).join(", ");
+      this.words.textContent = count ? `Dashed: the hull as it was then. ${count} lines differ${figures ? `; since then ${figures}` : ""}. Most: ${lines.slice(0, 3).map((/** @type {string} */ each) => each.split(": ")[0]).join(", ")}. Esc takes it away.` : "Nothing differs.";
+    } else if (message.value) this.#show(message.value);
+  }
+
+  /** @param {{head: number, steps: Step[], older: number, labels: {name: string, step: number}[]}} found */
+  #show(found) {
+    const list = document.createElement("ol");
+    list.className = "steps";
+    const first = {number: 0, parent: 0, name: "the hull as it came", way: 1, author: "", time: "", normal: null};
+    for (const step of [...found.steps].reverse().concat(found.older ? [] : [first])) {
+      const item = document.createElement("li"), names = found.labels.filter((each) => each.step === step.number).map(({name}) => name);
+      const here = step.number === found.head, note = here ? "the present state" : step.way < 0 ? "taken back" : step.way ? "" : `on a branch from step ${step.parent}`;
+      const title = here ? paragraph(step.name, "now") : link(step.name, () => this.#go(step.number));
+      if (here) item.setAttribute("aria-current", "step");
+      else title.title = "Bring the hull to the state after this step";
+      item.append(title, paragraph([...names.map((name) => `“${name}”`), note, step.author, clock(step.time), step.normal === null ? "" : millimetres(step.normal)].filter(Boolean).join(" · ")));
+      if (!here) {
+        const compare = link("compare with it", () => this.#compare(step.number));
+        compare.setAttribute("aria-label", `compare with ${step.name}`);
+        item.append(compare);
+      }
+      list.append(item);
+    }
+    const more = found.older ? [paragraph(`${found.older} older steps are not listed.`)] : [];
+    this.list.replaceChildren(list, ...more);
+  }
+}

@@ -1,0 +1,120 @@
+"""Fairing on the page: waviest lines, a window by a slider, fair answers, lines that are led."""
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from tests.browser.conftest import Hand, Open
+from tests.browser.test_panels import POINT, opened
+
+CALLED = "WL 1.08 x ST 19.75"
+
+
+def choose(hand: Hand, name: str) -> None:
+    """Choose a point by its name."""
+    hand.ask("(p, name) => p.find(name)", name)
+
+
+def test_a_window_is_faired_as_its_ghost_showed(open_page: Open, hull: ah.Hull) -> None:
+    """A line of the list is gone to; the slider shows, Esc gives up, Apply is one signed step."""
+    hand = open_page(hull)
+    before, box = hull.fingerprint, opened(hand, "Fair")
+    box.get_by_text("List the waviest lines").click()
+    box.get_by_role("button", name=CALLED).first.click()
+    assert hand.ask("p => p.store.net.points.get(p.store.selection.row).name") == CALLED
+    choose(hand, POINT)
+    box.locator("input[type=range]").fill("50")
+    box.get_by_text("Nothing is changed yet").wait_for()
+    shown = hand.ask("p => [...p.store.ghost.curves.keys()]")
+    assert POINT in box.inner_text()
+    assert hull.fingerprint == before
+    hand.page.keyboard.press("Escape")
+    assert hand.ask("p => p.store.ghost === null")
+    assert box.get_by_role("button", name="Apply").is_disabled()
+    box.get_by_role("button", name="Preview").click()
+    box.get_by_text("Nothing is changed yet").wait_for()
+    places = hand.ask("p => [...p.store.ghost.curves].map(([id, c]) => [id, ...c.xyz])")
+    box.get_by_role("button", name="Apply").click()
+    box.get_by_text("The window is faired").wait_for()
+    assert [step.author for step in hull.history] == ["anna"]
+    assert sorted(each[0] for each in places) == sorted(shown)
+    for number, *flat in places:  # to first order, as a hand at a slider sees it
+        now = hull.state.spline(number).xyz
+        if len(flat) == now.size:
+            assert np.abs(np.reshape(flat, (-1, 3)) - now).max() < 0.05
+
+
+def test_a_pull_that_is_answered_fairly_is_shown_before_it_is_made(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """Letting go shows the ghost and its cost; Enter makes it, as the library would."""
+    hand = open_page(hull)
+    hand.ask("p => p.toggleTool('fair')")
+    before = hull.fingerprint
+    hand.near(POINT)
+    hand.pull(POINT, 8.0)
+    box = hand.page.locator("details:has(h2:text-is('Proposal'))")
+    box.get_by_text("Nothing is changed yet").wait_for()
+    assert hull.fingerprint == before
+    assert "m³" in box.inner_text()
+    hand.page.keyboard.press("Enter")
+    hand.until("p => p.store.history.edits === 1")
+    assert "answered fairly" in hull.history[-1].name
+    assert hand.shows_what_is_published()
+    hand.page.keyboard.press("Control+z")
+    hand.until("p => p.store.history.edits === 0")
+    assert hull.fingerprint == before
+
+
+def place_beside(hand: Hand, off: float) -> None:
+    """Insert a point beside ST 16, so many metres outward, by a click."""
+    hand.near(POINT)
+    choose(hand, POINT)
+    choose(hand, "ST 16")
+    x, y = hand.spot(POINT)
+    hand.page.get_by_role("button", name="Insert a point").click()
+    hand.page.mouse.click(x + 400.0 * off, y + 150.0)
+
+
+@pytest.mark.parametrize("pinned", [False, True], ids=["led", "pinned"])
+def test_a_point_inserted_off_its_line_leads_it(
+    open_page: Open, hull: ah.Hull, *, pinned: bool
+) -> None:
+    """Led, the hull around follows; pinned, the line bends alone; both are shown first."""
+    hand = open_page(hull)
+    if pinned:
+        hand.ask("p => p.toggleTool('pinned')")
+    before = hull.fingerprint
+    place_beside(hand, 0.02)
+    box = hand.page.locator("details:has(h2:text-is('Proposal'))")
+    box.get_by_text("Nothing is changed yet").wait_for()
+    assert hull.fingerprint == before
+    assert hand.ask("p => p.store.ghost.curves.size") > 0
+    box.get_by_role("button", name="Apply").click()
+    hand.until("p => p.store.history.edits === 1")
+    assert bool(hull.history[-1].led) != pinned
+    assert hull.history[-1].author == "anna"
+
+
+def test_a_placed_point_that_is_dragged_leads_its_line(open_page: Open, hull: ah.Hull) -> None:
+    """While the pointer is down it is pinned; let go, the lead is a ghost; Esc gives it up."""
+    with hull.edit("place") as edit:
+        y = hull.half_breadth(97.536, 3.9)
+        point = edit.insert("ST 16", (97.536, y, 3.9), lead=False)
+    name = point.name
+    hand = open_page(hull)
+    before = hull.fingerprint
+    hand.ask("p => p.use('move')")
+    hand.near(name)
+    hand.pull(name, 8.0)
+    box = hand.page.locator("details:has(h2:text-is('Proposal'))")
+    box.get_by_text("Nothing is changed yet").wait_for()
+    assert hull.fingerprint == before
+    hand.page.keyboard.press("Escape")
+    assert not box.is_visible()
+    assert hull.fingerprint == before
+    hand.pull(name, 8.0)
+    box.get_by_text("Nothing is changed yet").wait_for()
+    hand.page.keyboard.press("Enter")
+    hand.until("p => p.store.history.edits === 2")
+    assert hull.history[-1].led

@@ -1,0 +1,102 @@
+"""Panels beside the drawing: history, why, hydrostatics, areas; nothing changes unasked."""
+
+from playwright.sync_api import Locator
+
+import assoc_hull as ah
+from tests.browser.conftest import Hand, Open
+
+POINT = "WL 0.625 x ST 16"
+
+
+def opened(hand: Hand, title: str) -> Locator:
+    """Open a panel by its heading."""
+    box = hand.page.locator(f"details:has(h2:text-is('{title}'))")
+    box.locator("summary").click()
+    return box
+
+
+def pull(hand: Hand, metres: float) -> None:
+    """Pull at a point, as its page would."""
+    hand.ask(
+        "(p, name, d) => p.apply('pull by hand', [{op: 'pull', point: name, d, radius: [15, 5]}])",
+        POINT, metres,
+    )  # fmt: skip
+    hand.until("p => p.store.last && p.store.history.edits > 0")
+
+
+def test_the_history_goes_back_and_compares(open_page: Open, hull: ah.Hull) -> None:
+    """A ghost shows the state of then, Esc removes it; going there and back loses nothing."""
+    before = hull.fingerprint
+    hand = open_page(hull)
+    pull(hand, 0.02)
+    after, box = hull.fingerprint, opened(hand, "History")
+    box.get_by_text("pull by hand").wait_for()
+    assert "anna" in box.locator("li").first.inner_text()
+    box.get_by_label("compare with the hull as it came").click()
+    box.get_by_text("Dashed: the hull as it was then").wait_for()
+    assert hand.ask("p => p.store.ghost.curves.size") > 20
+    assert hull.fingerprint == after
+    hand.page.keyboard.press("Escape")
+    assert hand.ask("p => p.store.ghost === null")
+    box.get_by_role("button", name="the hull as it came", exact=True).click()
+    hand.until("p => p.store.history.edits === 0")
+    assert hull.fingerprint == before
+    box.get_by_text("taken back").wait_for()
+    box.get_by_role("button", name="pull by hand", exact=True).click()
+    hand.until("p => p.store.history.edits === 1")
+    assert hull.fingerprint == after
+    box.get_by_label("name of the present state").fill("fuller")
+    box.get_by_text("Keep under this name").click()
+    box.get_by_text("“fuller”").wait_for()
+    assert list(hull.labels) == ["fuller"]
+    assert hull.labels["fuller"].author == "anna"
+
+
+def test_going_back_over_edits_of_others_is_refused_in_the_history(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """The refusal names whose they are, in the panel, and the hull stays."""
+    hand = open_page(hull)
+    hull.author = "bert"
+    pull(hand, 0.02)
+    hand.ask("p => p.sign('clara')")
+    after, box = hull.fingerprint, opened(hand, "History")
+    box.get_by_role("button", name="the hull as it came", exact=True).click()
+    box.get_by_text("'pull by hand' of anna").wait_for()
+    assert hull.fingerprint == after
+
+
+def test_why_leads_to_the_causes(open_page: Open, hull: ah.Hull) -> None:
+    """What moved a line is told as a tree, and a click on a cause chooses it."""
+    hand = open_page(hull)
+    pull(hand, 0.02)
+    box = opened(hand, "Why")
+    hand.ask("p => p.find('ST 16')")
+    box.get_by_text("pull by hand").wait_for()
+    box.locator("li li").get_by_role("button", name=POINT, exact=True).click()
+    assert hand.ask("p => p.store.net.points.get(p.store.selection.row).name") == POINT
+    box.get_by_text("set by the edit").first.wait_for()
+
+
+def test_hydrostatics_tell_what_changed_since_the_session_began(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """Values have units, the change is that of the kernel, and the areas are drawn for both."""
+    volume = hull.hydrostatics().volume
+    hand = open_page(hull)
+    pull(hand, 0.05)
+    box = opened(hand, "Hydrostatics")
+    box.locator("table").wait_for()
+    row = box.locator("tr").first
+    more = hull.hydrostatics().volume - volume
+    assert f"+{more:.2f} m³" in row.inner_text()
+    assert box.locator("svg polyline").count() == 2
+    assert box.locator("svg rect").count() > 2
+
+
+def test_a_problem_that_is_found_is_gone_to(open_page: Open, hull: ah.Hull) -> None:
+    """The list tells when nothing is wrong."""
+    hand = open_page(hull)
+    box = opened(hand, "Problems")
+    box.get_by_text("Check the hull").click()
+    box.get_by_text("Nothing is wrong.").wait_for()
