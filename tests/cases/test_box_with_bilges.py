@@ -31,8 +31,8 @@ def rim(x: float, radius: float) -> tuple[np.ndarray, list[int], np.ndarray]:
     return np.column_stack([np.full(len(points), x), points]), kind, direction
 
 
-def round_box(radius: float = BILGE) -> ah.Hull:
-    """Its two ends are flat; the aft one is a transom."""
+def round_box(radius: float = BILGE, *, placed: bool = True) -> ah.Hull:
+    """Its two ends are flat; the aft one is a transom. Points of sections may be `placed`."""
 
     def end(
         name: str,
@@ -57,7 +57,7 @@ def round_box(radius: float = BILGE) -> ah.Hull:
         points, kind, direction = rim(x, radius)
         lines.append(
             LineSource.make(
-                "sections", f"ST {i}", points, kind=kind, direction=direction, placed=True
+                "sections", f"ST {i}", points, kind=kind, direction=direction, placed=placed
             )
         )
     ship = ah.Particulars("Round box", LENGTH, 2.0 * HALF, DEPTH, DRAUGHT, "closed")

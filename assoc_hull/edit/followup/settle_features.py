@@ -1,8 +1,9 @@
 """What becomes of features when an edit has run: they follow, are found on new lines, or dissolve.
 
 A feature is dissolved, with a note, where a point that it owns was set by hand on its line, where
-it has lost an end, and where its points have been bent off it. All else follows: points that came
-between its ends are its own now, and it lies in the plane of its line.
+it has lost an end, and where its points have been bent off it and `redraw_features` could not put
+them back. All else follows: points that came between its ends are its own now, and it lies in the
+plane of its line.
 """
 
 from __future__ import annotations

@@ -334,6 +334,25 @@ def test_a_feature_that_a_pull_bends_by_little_is_drawn_anew(bulk_carrier: ah.Hu
     assert bulk_carrier.fingerprint == first
 
 
+@pytest.mark.parametrize("d", [0.002, -0.01])
+def test_an_arc_whose_ends_a_pull_has_moved_gets_another_radius(d: float) -> None:
+    """Its points lie on the circle through these ends; the report tells the radius."""
+    hull = round_box(placed=False)
+    first, end = hull.fingerprint, hull.features["ST 2 arc"].points[-1]
+    with hull.edit("rounder") as edit:
+        edit.pull(end, d=d, radius=(30.0, 15.0), across_flats=True)
+    arc = hull.features["ST 2 arc"]
+    xyz = np.array([each.position for each in arc.points])
+    away = np.sqrt(((xyz - arc.parameters["centre"]) ** 2).sum(axis=1))
+    assert np.abs(away - arc.parameters["radius"]).max() < 2e-9
+    assert arc.parameters["radius"] != 2.0
+    assert "the radius of 'ST 2 arc' is " in " ".join(hull.history[-1].notes)
+    assert (hull.check(), hull.verify()) == ((), ())
+    hull.undo()
+    assert hull.fingerprint == first
+    assert hull.features["ST 2 arc"].parameters["radius"] == 2.0
+
+
 def test_what_an_edit_bends_on_purpose_is_not_put_back(bulk_carrier: ah.Hull) -> None:
     """The pulled point stays, and the feature that it is of is dissolved."""
     with taken_back(bulk_carrier):
