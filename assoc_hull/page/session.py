@@ -339,12 +339,15 @@ class Session:
         self._end_gesture()
         self._publish(before)
         normal = report.largest_normal
-        _send(client, {
-            "t": "done", "id": number, "gesture": gesture, "name": report.name,
-            "relofted": len(report.relofted), "inflections": sum(n for _, n in report.inflections),
+        told = {
+            "name": report.name, "relofted": len(report.relofted), "notes": list(report.notes),
+            "inflections": sum(n for _, n in report.inflections),
             "normal": None if normal is None else normal.distance,
-            "notes": list(report.notes),
-        })  # fmt: skip
+        }  # fmt: skip
+        _send(client, {"t": "done", "id": number, "gesture": gesture, **told})
+        for each in self._clients:
+            if each is not client:
+                _send(each, {"t": "theirs", "author": client.author, **told})
 
     def _undo(self, client: Client, message: Undo) -> None:
         self._require_free(client, "undo")

@@ -33,7 +33,10 @@ def test_no_rule_is_broken(open_page: Open, hull: ah.Hull, theme: str, width: in
     hand.ask("(p, name) => p.find(name)", POINT)
     hand.ask("(p, name) => p.apply('far', [{op: 'move', point: name, y: 400}])", POINT)
     hand.page.wait_for_selector(".bubble")
-    hand.ask("p => { p.panel.open('Points'); p.panel.open('Problems'); }")
+    hand.ask("p => { for (const t of Object.keys(p.panel.parts)) p.panel.open(t); }")
+    hand.page.get_by_text("List the waviest lines").click()
+    for title in ("Fair", "Hydrostatics"):
+        hand.page.locator(f"details:has(h2:text-is('{title}')) table").wait_for()
     assert findings(hand) == []
     hand.page.get_by_role("button", name="Keys").click()
     assert findings(hand, behind=True) == []

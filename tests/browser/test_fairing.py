@@ -68,9 +68,8 @@ def test_a_pull_that_is_answered_fairly_is_shown_before_it_is_made(
 
 def place_beside(hand: Hand, off: float) -> None:
     """Insert a point beside ST 16, so many metres outward, by a click."""
-    hand.near(POINT)
-    choose(hand, POINT)
     choose(hand, "ST 16")
+    hand.near(POINT)
     x, y = hand.spot(POINT)
     hand.page.get_by_role("button", name="Insert a point").click()
     hand.page.mouse.click(x + 400.0 * off, y + 150.0)

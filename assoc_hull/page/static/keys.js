@@ -43,7 +43,7 @@ export class Keys {
       return;
     }
     if (drawing && event.key === "Enter") return this.burst ? this.finish() : void page.panel.proposal.apply();
-    if (!drawing && !key.startsWith("Ctrl") && key !== "/" && key !== "?") return;
+    if (!drawing && !key.startsWith("Ctrl") && key !== "/" && key !== "?" && key !== ":") return;
     const action = actionOf(page, key);
     if (!action) return;
     event.preventDefault();

@@ -116,6 +116,10 @@ export class Page {
       store.last = message;
       this.say(`${message.name}: ${message.relofted} curves followed.`);
       store.changed("panel");
+    } else if (message.t === "theirs") {
+      store.last = message;
+      store.changed("panel");
+      this.speaker.say(`${message.author} has made: ${message.name}`);
     } else if (message.t === "answer") {
       for (const each of this.panel.askers) each.answer(message);
     }

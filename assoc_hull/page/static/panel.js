@@ -234,6 +234,7 @@ export class Panel {
     if (!last) return this.#words(box, "Drag a point: all lines that follow move with it. Esc takes it back.");
     this.#table(box, [
       ["last", last.name],
+      ...(last.author ? [/** @type {[string, string]} */ (["made by", last.author])] : []),
       ["follow", `${last.relofted} curves`],
       ["farthest", last.normal === null ? "–" : `${millimetres(last.normal)} off the hull`],
       ["inflections", last.inflections ? `${last.inflections} new` : "none new"],

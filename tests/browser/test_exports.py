@@ -1,0 +1,56 @@
+"""Files for other programs, written from the page."""
+
+from pathlib import Path
+
+import pytest
+
+import assoc_hull as ah
+from tests.browser.conftest import Open
+from tests.browser.test_panels import opened
+
+BEGINS = {"pdf": b"%PDF", "svg": b"<?xml", "dxf": b"", "csv": b"", "xlsx": b"PK"}
+
+
+@pytest.mark.parametrize("form", BEGINS)
+def test_a_file_is_handed_over_as_a_download(
+    open_page: Open, hull: ah.Hull, tmp_path: Path, form: str
+) -> None:
+    """It is that of the library, named by the ship, and the hull stays as it is."""
+    hand, before = open_page(hull), hull.fingerprint
+    box = opened(hand, "Export")
+    box.locator("select").select_option(form)
+    with hand.page.expect_download() as download:
+        box.get_by_text("Write the file").click()
+    assert download.value.suggested_filename == f"Series-60-CB-0.70.{form}"
+    target = tmp_path / f"found.{form}"
+    download.value.save_as(target)
+    assert target.read_bytes().startswith(BEGINS[form])
+    assert f"Series-60-CB-0.70.{form}" in box.inner_text()
+    if form in ("dxf", "csv"):
+        hull.export(tmp_path / f"Series-60-CB-0.70.{form}")
+        own = (tmp_path / f"Series-60-CB-0.70.{form}").read_bytes()
+        assert target.read_bytes() == own
+    assert hull.fingerprint == before
+
+
+def test_a_second_window_shows_the_edits_of_the_other_under_its_name(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """Both windows show the same hull, and the history says whose the edit is."""
+    anna = open_page(hull)
+    bert = open_page(server=anna.server)
+    bert.ask("p => p.sign('bert')")
+    box = opened(anna, "History")
+    bert.ask(
+        "p => p.apply('fuller', [{op: 'pull', point: 'WL 0.625 x ST 16', d: 0.02,"
+        " radius: [15, 5]}])"
+    )
+    anna.until("p => p.store.history.edits === 1")
+    box.get_by_text("fuller").wait_for()
+    assert "bert" in box.locator("li").first.inner_text()
+    told = anna.page.locator("details:has(h2:text-is('Edit'))").inner_text().split()
+    assert {"fuller", "bert"} <= set(told)
+    assert anna.shows_what_is_published()
+    anna.page.keyboard.press("Control+z")
+    anna.page.locator(".banner").get_by_text("0 steps of theirs").wait_for()
+    assert len(hull.history) == 1
