@@ -48,7 +48,7 @@ def test_the_history_goes_back_and_compares(open_page: Open, hull: ah.Hull) -> N
     box.get_by_label("name of the present state").fill("fuller")
     box.get_by_text("Keep under this name").click()
     box.get_by_text("“fuller”").wait_for()
-    assert list(hull.labels) == ["fuller"]
+    assert "fuller" in hull.labels
     assert hull.labels["fuller"].author == "anna"
 
 

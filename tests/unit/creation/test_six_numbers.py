@@ -79,7 +79,8 @@ def test_swing_to_its_own_coefficients_leaves_a_curve_of_areas_as_it_is() -> Non
 def test_cb_and_lcb_that_fight_are_refused_with_the_intervals_of_both() -> None:
     """And the interval of CB holds."""
     six = SIX | {"lcb": 5.4}
-    with pytest.raises(ah.errors.OutOfRangeError, match=r"cb of 0\.7 and lcb of 5\.4 m fight") as no:
+    fight = r"cb of 0\.7 and lcb of 5\.4 m fight"
+    with pytest.raises(ah.errors.OutOfRangeError, match=fight) as no:
         design_for(SHIP_TYPES["general cargo"], SixNumbers(**six))
     assert "keep cb and give an lcb from" in str(no.value)
     six["cb"] = 0.5 * (no.value.least + no.value.most)

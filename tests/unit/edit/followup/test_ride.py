@@ -18,17 +18,23 @@ def unlinked(hull: ah.Hull) -> list[str]:
     for curve in state.live("curves").tolist():
         order = state.curves.rows[curve].tolist()
         for place, row in enumerate(order):
-            if rows.sort[row] == Sort.ADOPTED:
+            if _rides(hull, row):
                 sides = order[:place][::-1], order[place + 1 :]
                 if [_first_driven(hull, side) for side in sides] != rows.anchor[row].tolist():
                     wrong.append(rows.key[row])
     return wrong
 
 
-def _first_driven(hull: ah.Hull, rows: list[int]) -> int:
-    """The nearest point that is not adopted, if it is driven; else -1."""
+def _rides(hull: ah.Hull, row: int) -> bool:
+    """Adopted points ride; those that hold a driver in the place of a crossing stay."""
     table = hull.state.rows
-    other = next((row for row in rows if table.sort[row] != Sort.ADOPTED), -1)
+    return bool(table.sort[row] == Sort.ADOPTED) and not table.stands_for[row]
+
+
+def _first_driven(hull: ah.Hull, rows: list[int]) -> int:
+    """The nearest point that does not ride, if it is driven; else -1."""
+    table = hull.state.rows
+    other = next((row for row in rows if not _rides(hull, row)), -1)
     return other if other >= 0 and table.driver[other] >= 0 else -1
 
 
