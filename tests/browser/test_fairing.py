@@ -110,7 +110,7 @@ def test_a_placed_point_that_is_dragged_leads_its_line(open_page: Open, hull: ah
     box.get_by_text("Nothing is changed yet").wait_for()
     assert hull.fingerprint == before
     hand.page.keyboard.press("Escape")
-    assert not box.is_visible()
+    box.wait_for(state="hidden")
     assert hull.fingerprint == before
     hand.pull(name, 8.0)
     box.get_by_text("Nothing is changed yet").wait_for()

@@ -1,8 +1,6 @@
 // The table of all actions: what they are called, by which keys, whether they can be done now.
 // Buttons, keys and the sheet of keys read it.
 
-import {openPalette} from "./palette.js";
-
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {{id: string, words: string, keys: string[], label?: (page: Page) => string, pressed?: (page: Page) => boolean, enabled?: (page: Page) => boolean, run: (page: Page) => void}} Action */
 
@@ -78,7 +76,7 @@ export const ACTIONS = [
   {id: "fairing", words: "Fairing: the waviest lines, a window", keys: ["Shift+f"], run: (page) => page.panel.open("Fair")},
   {id: "export", words: "Write a lines plan, offsets, a drawing", keys: ["x"], run: (page) => page.panel.open("Export")},
   {id: "theme", words: "Light, dark, or as the system", keys: ["t"], label: () => "Theme", run: (page) => page.nextTheme()},
-  {id: "palette", words: "All that can be done, by its words", keys: ["Ctrl+k", ":"], run: openPalette},
+  {id: "palette", words: "All that can be done, by its words", keys: ["Ctrl+k", ":"], run: (page) => page.palette()},
   {id: "keys", words: "All keys", keys: ["?"], label: () => "Keys", run: (page) => page.sheet()},
 ];
 

@@ -12,6 +12,7 @@ import {Store} from "./store.js";
 import {View} from "./view.js";
 import {paintHull, paintOverlay} from "./paint.js";
 import {readInk, themeOf} from "./theme.js";
+import {openPalette} from "./palette.js";
 import {placeBubble} from "./bubble.js";
 import {makeBar} from "./bar.js";
 import {alongCurve} from "./lists.js";
@@ -447,6 +448,11 @@ export class Page {
     this.root.dataset.theme = themeOf(this.store.theme);
     this.ink = readInk(this.root);
     this.store.changed("hull", "overlay", "panel");
+  }
+
+  palette() {
+    const able = ACTIONS.filter((each) => each.id !== "palette" && (each.enabled?.(this) ?? true));
+    openPalette(this, able.map(({words, keys, run}) => ({words, keys: keys.map(keyWords).join(", "), run: () => run(this)})));
   }
 
   sheet() {

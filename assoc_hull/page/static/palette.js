@@ -1,14 +1,12 @@
 // The palette: all that can be done, found by a few letters of its words; points and lines by name.
 
-import {ACTIONS, keyWords} from "./actions.js";
-
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {{words: string, keys: string, run: () => void}} Row */
 
 const MOST = 12;
 
-/** @param {Page} page */
-export function openPalette(page) {
+/** @param {Page} page @param {Row[]} acts all that can be done now */
+export function openPalette(page, acts) {
   const dialog = document.createElement("dialog"), field = document.createElement("input"), list = document.createElement("ul");
   dialog.className = "sheet palette";
   dialog.setAttribute("aria-label", "What to do");
@@ -32,9 +30,8 @@ export function openPalette(page) {
   const look = () => {
     const parts = field.value.trim().toLowerCase().split(/\s+/);
     const fit = (/** @type {string} */ words) => parts.every((part) => words.toLowerCase().includes(part));
-    const acts = ACTIONS.filter((each) => each.id !== "palette" && fit(each.words) && (each.enabled?.(page) ?? true));
     const names = field.value.trim() ? [...(page.store.net?.curves.values() ?? []), ...(page.store.net?.points.values() ?? [])].filter(({name}) => fit(name)) : [];
-    rows = [...acts.map((each) => ({words: each.words, keys: each.keys.map(keyWords).join(", "), run: () => each.run(page)})),
+    rows = [...acts.filter(({words}) => fit(words)),
       ...names.slice(0, MOST).map(({name}) => ({words: name, keys: "go there", run: () => page.find(name)}))].slice(0, MOST);
     at = 0;
     list.replaceChildren(...rows.map((row, i) => {
