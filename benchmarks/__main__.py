@@ -15,7 +15,8 @@ from benchmarks.clock import Figure
 NAMES = (
     "full_reloft", "one_edit", "edits", "drags", "drag_session", "start", "session",
     "long_session", "hydrostatics", "variation_methods", "variants", "form_curves",
-    "created_hulls", "biarcs", "production_arcs", "classical_splines", "conformal_sections",
+    "created_hulls", "six_numbers", "biarcs", "production_arcs", "classical_splines",
+    "conformal_sections",
     "curvature_regions", "surface_fit", "cad_files", "cad_slicing", "closed_mesh", "doctor",
     "fairing", "fair_edits", "leads", "switches", "page",
 )  # fmt: skip

@@ -439,14 +439,31 @@ def _tell(
 # The command that creates a hull from a design, by form parameters.
 
 
+_TYPES = "bulk carrier (default), tanker, container ship, general cargo, ro-ro"
+_SIX = (
+    "length", "breadth", "draught", "depth", "cb", "lcb", "lcb_percent", "cm", "bilge_radius", "cw",
+)  # fmt: skip
+
+
 def add_create(commands: Commands) -> None:
     """Add ``create``."""
     parser = add_command(
         commands, "create", _create,
         """assoc-hull create --example > design.json
         assoc-hull create design.json -o ship.hull
-        assoc-hull create design.json -o ship.hull --json""",
+        assoc-hull create design.json -o ship.hull --json
+        assoc-hull create --type tanker --length 225 --breadth 32.2 --draught 14 \\
+          --depth 19.5 --cb 0.82 --lcb-percent 2.7 -o ship.hull""",
     )  # fmt: skip
+    parser.add_argument("--type", metavar="TYPE", help="of a ship from six numbers: " + _TYPES)
+    for name, what in (
+        ("length", "length between perpendiculars, m"), ("breadth", "moulded breadth, m"),
+        ("draught", "design draught, m"), ("depth", "depth to the deck edge amidships, m"),
+        ("cb", "block coefficient"), ("lcb", "centre of buoyancy from midship, m, + forward"),
+        ("lcb-percent", "the same in %% of the length"), ("cm", "midship section coefficient"),
+        ("bilge-radius", "m, in the place of --cm"), ("cw", "waterplane coefficient"),
+    ):  # fmt: skip
+        parser.add_argument(f"--{name}", type=float, metavar="X", help=what)
     parser.add_argument(
         "design", metavar="DESIGN.json", type=Path, nargs="?", help="particulars and definitions"
     )
@@ -467,8 +484,11 @@ def _create(arguments: argparse.Namespace) -> int:
 
     if arguments.example:
         return _create_example(arguments)
+    six = {name: getattr(arguments, name) for name in _SIX}
+    if arguments.type is not None or any(each is not None for each in six.values()):
+        return _create_from_six(arguments, six)
     if arguments.design is None or arguments.out is None:
-        missing = "DESIGN.json" if arguments.design is None else "-o HULL"
+        missing = "DESIGN.json, or --length and so on," if arguments.design is None else "-o HULL"
         raise UsageError(f"{missing} is missing, in create; see: assoc-hull create --help")
     check_hull_target(arguments.out, replace=arguments.replace)
     design = Design.from_json(arguments.design)
@@ -482,6 +502,28 @@ def _create(arguments: argparse.Namespace) -> int:
     }  # fmt: skip
     text = f"{report}\n{hull_words(hull)}\nwritten: {arguments.out}"
     emit(arguments, facts, text)
+    return 0
+
+
+def _create_from_six(arguments: argparse.Namespace, six: dict[str, float | None]) -> int:
+    """Create a ship from six numbers; tell where each other value comes from."""
+    if arguments.design is not None:
+        raise UsageError("DESIGN.json and numbers are both given, in create; leave one out")
+    if arguments.out is None:
+        raise UsageError("-o HULL is missing, in create; see: assoc-hull create --help")
+    check_hull_target(arguments.out, replace=arguments.replace)
+    kind = arguments.type or "bulk carrier"
+    with progress(f"creating a {kind}"):
+        hull = create(type=kind, **six)  # type: ignore[arg-type]
+        report = hull.creation
+    hull.save(arguments.out, replace=arguments.replace)
+    notes = [attrs.asdict(each) for each in hull.notes]
+    facts = {
+        "format": "assoc-hull report", "schema": 1, "hull": arguments.out,
+        "fingerprint": hull.fingerprint, "report": report.data(), "notes": notes,
+    }  # fmt: skip
+    words = "\n".join(str(each) for each in hull.notes)
+    emit(arguments, facts, f"{words}\n\n{hull_words(hull)}\nwritten: {arguments.out}")
     return 0
 
 

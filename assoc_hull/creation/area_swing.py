@@ -15,7 +15,7 @@ import attrs
 import numpy as np
 from scipy.optimize import root_scalar
 
-from assoc_hull.errors import BadInputError, OutOfRangeError
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.form_curves.integrals import form_integrals
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.forms.two_halves import half_fault, half_number, half_vertices
@@ -187,10 +187,11 @@ def _solved(
     """Give the curve of a family with a centroid; the first crossing of even steps is refined."""
 
     def miss(value: float) -> float:
-        try:
-            return _centroid(made(value)) - centroid
-        except (BadInputError, OutOfRangeError):
+        # Faults are asked for first: an error would look for intervals, which takes long.
+        found = made(value)
+        if any(half_fault(found, half) for half in _ENDS):
             return math.nan
+        return _centroid(found) - centroid
 
     places = np.linspace(*bounds, 25)
     values = np.array([miss(each) for each in places])

@@ -20,7 +20,7 @@ from assoc_hull.creation.scaled_design import CarriedDesign, carried_places, car
 from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.forms.closure import close_halves, coefficients
-from assoc_hull.model.forms.two_halves import half_number, reachable
+from assoc_hull.model.forms.two_halves import half_number
 from assoc_hull.model.tables import Particulars
 
 __all__ = ["DesignNote", "ShipType", "SixNumbers", "TypedDesign", "design_for", "with_areas"]
@@ -177,7 +177,12 @@ def design_for(
     )  # fmt: skip
     bilge, full, midship = _midship(kind, six, cm, bilge_radius)
     notes += midship
-    areas, way = _areas(parent, six, full)
+
+    def area(block: float) -> float:
+        # Of the midship section: by a formula it changes along with the block coefficient.
+        return _midship(kind, attrs.evolve(six, cb=block), cm, bilge_radius)[1]
+
+    areas, way = _areas(parent, six, area)
     notes += _area_notes(areas, six, way)
     old = parent.definition("bilge_radius")
     old_bilge = old.value(f"{old.nodes[0]}_y")
@@ -282,13 +287,16 @@ def _radius(cm: float, box: float) -> float:
 # Curve of areas.
 
 
-def _areas(parent: Design, six: SixNumbers, full: float) -> tuple[FormDefinition, str]:
+def _areas(
+    parent: Design, six: SixNumbers, area: Callable[[float], float]
+) -> tuple[FormDefinition, str]:
     """Give the curve of areas that has CB and LCB; refuse them together with both intervals."""
-    curve = parent.definition("sectional_area").having({"full": full})
+    parents = parent.definition("sectional_area")
 
     def swung(cb: float, lcb: float) -> tuple[FormDefinition, str]:
+        full = area(cb)
         fullness = cb * six.breadth * six.draught / full
-        found = swing_areas(curve, fullness, 2.0 * lcb / six.length)
+        found = swing_areas(parents.having({"full": full}), fullness, 2.0 * lcb / six.length)
         return found.definition, found.way
 
     def made(cb: float, lcb: float) -> bool:
@@ -302,10 +310,10 @@ def _areas(parent: Design, six: SixNumbers, full: float) -> tuple[FormDefinition
         return swung(six.cb, six.lcb)
     except AssocHullError:
         pass
-    cm = full / (six.breadth * six.draught)
+    cm = area(six.cb) / (six.breadth * six.draught)
     span = 0.06 * six.length
-    at_lcb = reachable(lambda cb: made(cb, six.lcb), 0.45 * cm, 0.95 * cm, six.cb)
-    at_cb = reachable(lambda lcb: made(six.cb, lcb), -span, span, six.lcb)
+    at_lcb = _room(lambda cb: made(cb, six.lcb), 0.45 * cm, 0.95 * cm, six.cb)
+    at_cb = _room(lambda lcb: made(six.cb, lcb), -span, span, six.lcb)
     why = f"and lcb of {six.lcb:g} m fight: no curve of areas has both"
     remedy = "another type"
     if at_cb is not None:
@@ -317,6 +325,29 @@ def _areas(parent: Design, six: SixNumbers, full: float) -> tuple[FormDefinition
         raise OutOfRangeError("lcb", six.lcb, _CALL, why, *at_cb, "m")
     what = f"cb of {six.cb:g} {why}"
     raise BadInputError(what, _CALL, f"give other values, or {remedy}")
+
+
+def _room(
+    made: Callable[[float], bool], least: float, most: float, asked: float
+) -> tuple[float, float] | None:
+    """Give the interval nearest to a value that cannot be made; both ends can be; by few tries."""
+    places = np.linspace(least, most, 21).tolist()
+    good = [number for number, place in enumerate(places) if made(place)]
+    if not good:
+        return None
+    low = high = min(good, key=lambda number: abs(places[number] - asked))
+    while low - 1 in good:
+        low -= 1
+    while high + 1 in good:
+        high += 1
+    ends = []
+    for inside, outside in ((low, max(low - 1, 0)), (high, min(high + 1, len(places) - 1))):
+        near, far = places[inside], places[outside]
+        for _ in range(9):
+            middle = 0.5 * (near + far)
+            near, far = (middle, far) if made(middle) else (near, middle)
+        ends.append(near)
+    return ends[0], ends[1]
 
 
 def with_areas(design: Design, cb: float, lcb: float) -> FormDefinition:

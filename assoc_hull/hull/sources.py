@@ -25,7 +25,7 @@ from assoc_hull.arguments import (
     regular_file,
     text,
 )
-from assoc_hull.errors import BadInputError, RefusedEditError
+from assoc_hull.errors import BadInputError, OutOfRangeError, RefusedEditError
 from assoc_hull.hull.hull import Hull
 
 if TYPE_CHECKING:
@@ -267,8 +267,14 @@ def _from_six(
     known = {word: None if v is None else positive(v, word, where) for word, v in given.items()}
     title = None if name is None else text(name, "name", where)
     typed = design_for(ship_type(text(kind, "type", where)), asked, **known, name=title)
-    state, report, typed = build_typed(typed)
-    hull, typed = _closed(Hull(state), asked, typed)
+    try:
+        state, report, typed = build_typed(typed)
+        hull, typed = _closed(Hull(state), asked, typed)
+    except (BadInputError, OutOfRangeError, RefusedEditError) as error:
+        what = f"cb of {asked.cb:g} and lcb of {asked.lcb:g} m fight with lines of a {kind}"
+        raise BadInputError(
+            what, where, f"give another cb or lcb, or another type; what failed: {error}"
+        ) from error
     hull.adoption, hull.notes = report, typed.notes
     return hull
 

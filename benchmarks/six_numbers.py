@@ -1,0 +1,125 @@
+"""Ships from six numbers: how many of those drawn over the ranges are made, and how fair they are.
+
+``python -m benchmarks six_numbers``; ``python -m benchmarks.six_numbers COUNT`` prints each ship
+and each refusal as well. Numbers are drawn evenly over the ranges, with seeds.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+
+import attrs
+import numpy as np
+
+import assoc_hull as ah
+from benchmarks.clock import Figure
+
+__all__ = ["RANGES", "Drawn", "drawn_ships", "figures"]
+
+RANGES: Mapping[str, tuple[tuple[float, float], ...]] = {
+    "bulk carrier": ((100, 320), (5.5, 7.0), (2.3, 3.1), (1.3, 1.6), (0.78, 0.85), (0.0, 3.5)),
+    "tanker": ((100, 320), (5.5, 7.0), (2.3, 3.1), (1.3, 1.6), (0.78, 0.85), (0.0, 3.5)),
+    "container ship": ((120, 360), (6.3, 8.2), (2.4, 3.6), (1.5, 2.1), (0.58, 0.70), (-3.0, 0.0)),
+    "general cargo": ((70, 160), (5.5, 7.0), (2.2, 2.9), (1.3, 1.7), (0.68, 0.80), (-1.0, 2.0)),
+    "ro-ro": ((100, 220), (5.5, 7.5), (3.3, 4.5), (1.8, 2.6), (0.52, 0.66), (-4.0, -1.0)),
+}
+"""Lpp (m), L/B, B/T, D/T, CB, LCB (% of Lpp) from and to."""
+
+
+@attrs.frozen
+class Drawn:
+    """One ship: what was asked for, and what came of it.
+
+    Attributes
+    ----------
+    kind, asked : str
+        Type, and numbers in words.
+    refusal : str
+        Empty where it was made.
+    cb, lcb : float
+        Misses, the latter in parts of the length.
+    changes : mapping of str to list of int
+        Sign changes of curvature by line, of sections, waterlines, buttocks.
+    lowest : float, m
+        Of all points of lines.
+    """
+
+    kind: str
+    asked: str
+    refusal: str = ""
+    cb: float = np.nan
+    lcb: float = np.nan
+    changes: Mapping[str, list[int]] = attrs.field(factory=dict)
+    lowest: float = np.nan
+
+
+def _draw(kind: str, seed: int) -> dict[str, float]:
+    """Draw six numbers."""
+    random = np.random.default_rng([seed, list(RANGES).index(kind)])
+    length, slender, beam, deep, cb, lcb = (float(random.uniform(*each)) for each in RANGES[kind])
+    breadth = length / slender
+    draught = breadth / beam
+    return {
+        "length": round(length, 1), "breadth": round(breadth, 2), "draught": round(draught, 2),
+        "depth": round(draught * deep, 2), "cb": round(cb, 3), "lcb_percent": round(lcb, 2),
+    }  # fmt: skip
+
+
+def _made(kind: str, seed: int) -> Drawn:
+    six = _draw(kind, seed)
+    asked = ", ".join(f"{name} {value:g}" for name, value in six.items())
+    try:
+        hull = ah.create(type=kind, **six)  # type: ignore[call-overload, arg-type, unused-ignore]
+        found = hull.hydrostatics()
+    except ah.errors.AssocHullError as error:
+        return Drawn(kind, asked, f"{type(error).__name__}: {error}")
+    miss = found.lcb / six["length"] - 0.5 - 0.01 * six["lcb_percent"]
+    counts: dict[str, list[int]] = {}
+    table = hull.fairness()
+    for line in hull.lines.values():
+        group = line.group.family
+        if group in ("sections", "waterlines", "buttocks"):
+            counts.setdefault(group, []).append(
+                sum(int(record.inflections or 0) for record in table[line.name])
+            )
+    lowest = min(float(point.position[2]) for line in hull.lines.values() for point in line.points)
+    return Drawn(kind, asked, "", found.cb - six["cb"], miss, counts, lowest)
+
+
+def drawn_ships(count: int) -> list[Drawn]:
+    """Make so many ships of each type."""
+    return [_made(kind, seed) for kind in RANGES for seed in range(count)]
+
+
+def figures(quick: bool = False) -> list[Figure]:
+    """Measure the share made, the misses and the sign changes."""
+    return _summary(drawn_ships(2 if quick else 12))
+
+
+def _summary(ships: list[Drawn]) -> list[Figure]:
+    found = []
+    for kind in RANGES:
+        some = [each for each in ships if each.kind == kind]
+        made = [each for each in some if not each.refusal]
+        found.append(Figure(f"{kind}: made", len(made) / len(some), "", 0.95, "least"))
+        if not made:
+            continue
+        for name, misses in (("CB", [each.cb for each in made]), ("LCB/L", [e.lcb for e in made])):
+            found.append(Figure(f"    {name}, worst", max(map(abs, misses)), "", 1e-6, "most"))
+        for group in ("sections", "waterlines", "buttocks"):
+            medians = [float(np.median(each.changes[group])) for each in made]
+            worst = [max(each.changes[group]) for each in made]
+            title = f"    sign changes, {group}"
+            found.append(Figure(f"{title}, median", float(np.median(medians)), ""))
+            found.append(Figure(f"{title}, worst", float(max(worst)), ""))
+    return found
+
+
+if __name__ == "__main__":
+    for each in drawn_ships(int(sys.argv[1]) if len(sys.argv) > 1 else 2):
+        words = each.refusal or (
+            f"CB {each.cb:+.1e}, LCB {each.lcb:+.1e}, lowest {each.lowest:.3f}, "
+            + ", ".join(f"{g} {np.median(c):g}/{max(c)}" for g, c in each.changes.items())
+        )
+        print(f"{each.kind}: {each.asked}\n    {words}", flush=True)
