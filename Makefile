@@ -18,7 +18,7 @@ export PIP_NO_INPUT := 1
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-long test-page lint bench wheel
+.PHONY: help demo test test-long test-page lint bench wheel site
 
 help:  ## say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -60,6 +60,18 @@ lint: $(STAMP)  ## rules of style, formatting, imports and types
 
 bench: $(STAMP)  ## the benchmarks
 	$(BIN)/python -m benchmarks $(ARGS)
+
+# It has an environment of its own: nothing of it is needed to use or test the package.
+SITE := build/docs-env
+
+$(SITE)/.installed: requirements/docs.txt
+	@test -n "$(PYTHON)" || { echo "error: no Python 3.11 or newer with venv was found" >&2; exit 2; }
+	$(PYTHON) -m venv $(SITE)
+	$(SITE)/bin/python -m pip install --quiet --requirement requirements/docs.txt
+	@touch $@
+
+site: $(SITE)/.installed  ## the documentation as a site with search, in build/site
+	NO_MKDOCS_2_WARNING=1 $(SITE)/bin/python -m mkdocs build --strict --quiet
 
 wheel: $(STAMP)  ## the wheel, in dist
 	rm -rf dist

@@ -47,6 +47,7 @@ __all__ = [
     "regular_file",
     "shown",
     "shown_name",
+    "small_length",
     "text",
     "word",
 ]
@@ -96,7 +97,7 @@ def shown_name(value: object) -> str:
     return value if isinstance(value, str) and len(value) < 100 else shown(value)
 
 
-_NUMBER = re.compile(r"(\d+)(?:[.,](\d+))?")
+_NUMBER = re.compile(r"(\d+)(?:[.,](\d+))?|(?<!\d)[.,](\d+)")
 _GAP = re.compile(r"(?<![\d\s])\s+|\s+(?![\d\s])")
 
 
@@ -108,13 +109,13 @@ def plain_name(name: str) -> str:
     Examples
     --------
     >>> from assoc_hull.arguments import plain_name
-    >>> plain_name("wl 0,50 X  ST07") == plain_name("WL 0.5 x ST 7")
+    >>> plain_name("wl .50 X  ST07") == plain_name("WL 0,5 x ST 7")
     True
     """
 
     def digits(found: re.Match[str]) -> str:
-        part = (found[2] or "").rstrip("0")
-        return f"{found[1].lstrip('0') or '0'}{'.' * bool(part)}{part}"
+        part = (found[2] or found[3] or "").rstrip("0")
+        return f"{(found[1] or '').lstrip('0') or '0'}{'.' * bool(part)}{part}"
 
     return _NUMBER.sub(digits, _GAP.sub("", name.casefold()))
 
@@ -171,6 +172,26 @@ def positive(value: object, name: str, where: str = _CALL) -> float:
     if not found > 0.0:
         raise BadInputError(f"{name} is {shown(value)}", where, "give a number above 0")
     return found
+
+
+def small_length(value: object, name: str, where: str, length: float) -> float:
+    """Take a length (m) above 0 that is small beside a ship's `length`: noise, a tolerance.
+
+    Raises
+    ------
+    BadInputError
+        Anything else; more than a thousandth of the length: it was meant in mm.
+    """
+    found, most = positive(value, name, where), _SMALL_PART * length
+    if found > most:
+        raise BadInputError(
+            f"{name} is {found:g} m, more than a thousandth of the length ({most:.3g} m)", where,
+            f"lengths are in m: give {found / 1e3:g} for {found:g} mm",
+        )  # fmt: skip
+    return found
+
+
+_SMALL_PART = 1e-3 * (1.0 + 1e-9)
 
 
 def not_negative(value: object, name: str, where: str = _CALL, *, unit: str = "m") -> float:

@@ -57,6 +57,20 @@ __all__ = [
 class AssocHullError(Exception):
     """The root of the family: catch this to catch every error the package raises."""
 
+    def _render_traceback_(self) -> list[str]:
+        # Asked by IPython: the caller's lines and one line of ours, our frames folded.
+        import traceback
+        from pathlib import Path
+
+        own = f"{Path(__file__).parent}"
+        frames = [
+            each
+            for each in traceback.extract_tb(self.__traceback__)
+            if not each.filename.startswith(own) and "IPython" not in each.filename
+        ]
+        told = [f"line {each.lineno}: {each.line}" for each in frames if each.line]
+        return [*told, f"{type(self).__name__}: {self}"]
+
 
 @attrs.define(slots=False, eq=False)
 class BadInputError(AssocHullError, ValueError):

@@ -68,13 +68,35 @@ def _run(argv: Sequence[str] | None) -> int:
         words = _with_axes(sys.argv[1:] if argv is None else argv)
         if words[:1] == ["help"]:
             words = [*words[1:2], "--help"]
-        arguments = make_parser(words).parse_args(words)
+        parser = make_parser(words)
+        arguments = parser.parse_args(_options_last(words))
     except SystemExit as done:  # --help and --version
         return int(done.code or 0)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the one line on standard error says what is wrong
         code: int = arguments.run(arguments)
     return code
+
+
+_TAKES_VALUE = ("--out", "--name", "--why", "--wait")
+
+
+def _options_last(words: list[str]) -> list[str]:
+    """Put options of an edit behind its values, between which they may be typed."""
+    if words[:1] != ["edit"] or "--" in words:
+        return words
+    values, options = list[str](), list[str]()
+    rest = iter(words)
+    for word in rest:
+        if not word.startswith("-") or word == "-":
+            values.append(word)
+            continue
+        options.append(word)
+        # An option may be shortened, as argparse takes it.
+        name = len(word) > len("--") and any(each.startswith(word) for each in _TAKES_VALUE)
+        if word == "-o" or name:
+            options += [each for each in [next(rest, None)] if each is not None]
+    return [*values, *options]
 
 
 def _with_axes(words: Sequence[str]) -> list[str]:

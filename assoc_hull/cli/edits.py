@@ -262,7 +262,8 @@ def add_edit(commands: Commands) -> None:
 
 def _edit(arguments: argparse.Namespace) -> int:
     typed = str(arguments.edits)
-    if is_operation(typed) and not arguments.edits.exists():
+    # With values it is typed; alone a file of that name is read.
+    if is_operation(typed) and (arguments.values or not arguments.edits.exists()):
         changes: Changes = [typed_edit(typed, arguments.values)]
         name = arguments.name or " ".join([typed, *map(str.strip, arguments.values)])[:80]
     elif arguments.values or not (arguments.edits.suffix or arguments.edits.exists()):

@@ -1,7 +1,8 @@
 """An edit typed on the command line instead of in a file: a method of the edit, and its values.
 
 Words stand for the arguments of the method in their order, ``name=value`` for those with a name.
-A length may have a unit, numbers with commas are a place, places with semicolons are several.
+A length may have a unit, numbers with commas are a place, places with semicolons are several;
+``POINT to x,y,z`` is a point and where it is to come.
 
 Examples
 --------
@@ -10,6 +11,8 @@ Examples
 {'op': 'pull', 'point': 'WL 0.5 x ST 16', 'd': 0.05, 'radius': [20.0, 8.0]}
 >>> typed_edit("lead", ["BTK 1", "2.2,1,15.2; 6,1,13"])
 {'op': 'lead', 'line': 'BTK 1', 'points': [[2.2, 1.0, 15.2], [6.0, 1.0, 13.0]]}
+>>> typed_edit("lead", ["ST 7", "WL 0.5 x ST 7 to 42.67,8.66,3.48"])["points"]
+[['WL 0.5 x ST 7', [42.67, 8.66, 3.48]]]
 """
 
 from __future__ import annotations
@@ -123,8 +126,13 @@ def _read(text: str, into: inspect.Parameter | None) -> object:
     return _value(text)
 
 
+_PAIR = re.compile(r"(.+?)\s+to\s+([^;]+)", re.IGNORECASE)
+
+
 def _value(text: str) -> object:
-    """Read a number with a unit, a place, a word that stands for something, or a name."""
+    """Read a number with a unit, a place, a pair, a word that stands for something, or a name."""
+    if ";" not in text and (pair := _PAIR.fullmatch(text)):
+        return [pair[1].strip(), _value(pair[2].strip())]
     if ";" in text:
         return [_value(part.strip()) for part in text.split(";") if part.strip()]
     if "," in text:

@@ -131,7 +131,9 @@ def movement_words(largest: Movement, normal: Movement | None) -> list[str]:
 def _movement_words(movement: Movement, way: str = "") -> str:
     x, y, z = movement.place
     distance = f"{1e3 * movement.distance:.1f} mm"
-    return f"{distance}{way} at ({x:.3f}, {y:.3f}, {z:.3f}) m, {movement.point}"
+    # A key of the tables ("sections:97.536 x ...") is no word: the place says where.
+    name = "" if ":" in movement.point else f", {movement.point}"
+    return f"{distance}{way} at ({x:.3f}, {y:.3f}, {z:.3f}) m{name}"
 
 
 @attrs.frozen
@@ -244,6 +246,9 @@ class EditReport(ShownAsText):
     def inflections(self) -> tuple[tuple[str, int], ...]:
         """Curves with more curvature sign changes than before, and how many more."""
         return self.counted if self.fairness is None else self.fairness.added()
+
+    def __repr__(self) -> str:
+        return f"<EditReport {self}>"
 
     def __str__(self) -> str:
         if not self.changed:

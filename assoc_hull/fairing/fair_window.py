@@ -10,7 +10,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.fairness.fair_solution import linear_algebra, solve_battens, solve_few
-from assoc_hull.arguments import pair, positive
+from assoc_hull.arguments import pair, small_length
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.modifications.fair import (
     FairRequest,
@@ -105,7 +105,8 @@ class FairWindow:
             A length that is not above 0; no noise in the first step; nothing can move.
         """
         if noise is not None:
-            noise = positive(noise, "noise", _WHERE)
+            length = self.document.state.particulars.length
+            noise = small_length(noise, "noise", _WHERE, length)
         elif self._frame is not None:
             noise = self._frame.noise
         else:

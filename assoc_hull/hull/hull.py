@@ -22,7 +22,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from assoc_hull.arguments import flag, instance, integer, not_negative, number, positive, text
+from assoc_hull.arguments import (
+    flag,
+    instance,
+    integer,
+    not_negative,
+    number,
+    small_length,
+    text,
+)
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.report import EditReport
@@ -1863,8 +1871,10 @@ features
 
         where = "in doctor"
         most = integer(top, "top", where, least=0, most=1000)
-        known = None if noise is None else positive(noise, "noise", where)
-        return examine_net(state_of(self, where), most, known)
+        state = state_of(self, where)
+        length = state.particulars.length
+        known = None if noise is None else small_length(noise, "noise", where, length)
+        return examine_net(state, most, known)
 
     def curve_transform(
         self,

@@ -10,6 +10,8 @@ from assoc_hull.errors import UnknownNameError
 
 __all__ = ["NamedMapping"]
 
+_SHOWN = 4
+
 Item = TypeVar("Item", covariant=True)
 
 
@@ -65,4 +67,6 @@ class NamedMapping(Mapping[str, Item]):
         return list(self._items)
 
     def __repr__(self) -> str:
-        return f"<{len(self._items)} by name: {', '.join(list(self._items)[:4])}, ...>"
+        names = list(self._items)
+        told = ", ".join(names[:_SHOWN]) + (", ..." if len(names) > _SHOWN else "")
+        return f"<{len(names)} by name: {told}>" if names else f"<no {self._kind}>"

@@ -921,6 +921,9 @@ class Points(Mapping[str, Point]):
     def __init__(self, state: HullState) -> None:
         self._home = state.live_tables
 
+    def __repr__(self) -> str:
+        return f"<{len(self)} points by address>"
+
     @property
     def _state(self) -> HullState:
         return self._home.published()

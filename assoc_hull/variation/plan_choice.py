@@ -10,6 +10,7 @@ from collections.abc import Mapping
 
 import attrs
 
+from assoc_hull.arguments import small_length
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import (
     AssocHullError,
@@ -75,6 +76,8 @@ def choose_plan(
     before = parent_fairness(edit.state)
     lines = None
     if ask.fair:
+        if not isinstance(ask.fair, bool):
+            small_length(ask.fair, "fair", "in vary", edit.state.particulars.length)
         # What solves sparse systems is imported by whoever asks for it.
         from assoc_hull.variation.faired_followers import ParentLines
 

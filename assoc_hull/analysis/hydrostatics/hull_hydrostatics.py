@@ -639,7 +639,41 @@ def table_without_doubts(
     doubts = tuple(body.doubts(planes_of(positions, header.length), estimate))
     if doubts and on_error == "refuse":
         more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
-        remedy = "mend the hull, or take the numbers with on_error='report'"
-        raise BadInputError(doubts[0] + more, _WHERE, remedy)
+        raise BadInputError(doubts[0] + more, _WHERE, _remedy(body, header, positions))
     assumed = body.assumed if isinstance(body, Flotation) else ()
-    return attrs.evolve(table, notes=(*told, *assumed, *doubts))
+    return attrs.evolve(table, notes=(*told, *assumed, *doubts, *_beyond_one(table)))
+
+
+def _remedy(
+    body: FloatingBody, header: HydrostaticHeader, positions: Sequence[FloatingPosition]
+) -> str:
+    """Say what to do about a doubt: a hull that is sound as designed needs no mending."""
+    design = FloatingPosition(header.draught, header.draught)
+    if design not in positions and not any(body.doubts(planes_of([design], header.length), True)):
+        return (
+            "at its design draught the hull is sound, so it is the position: too little of the "
+            "hull is wet for its lines to tell; take a larger draught, or the numbers with "
+            "on_error='report'"
+        )
+    return "mend the hull, or take the numbers with on_error='report'"
+
+
+_COEFFICIENTS = ("cb", "cm", "cx", "cp", "cvp", "cw", "cb_lwl", "cp_lwl")
+_ROUNDING = 1e-6
+
+
+def _beyond_one(table: HydrostaticTable) -> list[str]:
+    """Note coefficients above 1: at trim or heel their box is not that of the wet hull."""
+    found = list[str]()
+    for i, at in enumerate(table.positions):
+        if not (at.trim_by_stern or at.heel_deg):
+            continue
+        values = {name: float(table.columns[name][i]) for name in _COEFFICIENTS}
+        above = [f"{FIELDS[name].symbol} {value:.4f}" for name, value in values.items()
+                 if value > 1.0 + _ROUNDING]  # fmt: skip
+        if above:
+            found.append(
+                f"{', '.join(above)} {at}: coefficients are on Lpp, breadth and mean draught as if "
+                "she were upright at even keel, and may exceed 1 at trim or heel"
+            )
+    return found

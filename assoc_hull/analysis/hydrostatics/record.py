@@ -464,8 +464,13 @@ class AppendageShare:
         freeze(self.volume, self.area, self.percent)
 
 
+_SHORT = ("volume", "displacement", "lcb", "kb", "waterplane_area", "lcf", "kmt", "tpc", "mtc",
+          "cb", "cw")  # fmt: skip
+"""What a table prints; it fits a screen."""
+
+
 @attrs.frozen(eq=False)
-class HydrostaticTable:
+class HydrostaticTable(ShownAsText):
     """Hydrostatics over draughts and trims: ``table[i]``, or ``table[i, j]`` by draught and trim.
 
     Attributes
@@ -496,6 +501,46 @@ class HydrostaticTable:
     freeboards: tuple[Freeboard, ...] = ()
     shares: tuple[AppendageShare, ...] = ()
     notes: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        head, rows = self._printed()
+        wide = [max(map(len, column)) for column in zip(*head, *rows, strict=True)]
+        lines = [
+            "  ".join(f"{cell:>{size}}" for cell, size in zip(row, wide, strict=True))
+            for row in (*head, *rows)
+        ]
+        more = (
+            f"{len(self.columns) - len(_SHORT)} more values in columns, a whole record in rows[i]"
+        )
+        return "\n".join([*lines, more, *self.notes])
+
+    def _repr_html_(self) -> str:
+        (names, units), rows = self._printed()
+        head = [
+            f"{name}, {unit}" if unit else name for name, unit in zip(names, units, strict=True)
+        ]
+        notes = "".join(f"<p>{escape(each)}</p>" for each in self.notes)
+        return html_table(head, rows, right=range(len(head))) + notes
+
+    def _printed(self) -> tuple[tuple[list[str], list[str]], list[list[str]]]:
+        """Give names and units, and rows, of draughts and of the values that are asked most."""
+        names, units, columns = [], [], []
+        titles = {"draught_aft": "T_A", "draught_fore": "T_F", "heel_deg": "heel"}
+        for name, values in self.draughts.items():
+            names.append(titles.get(name, name))
+            units.append("deg" if name == "heel_deg" else "m")
+            columns.append([f"{each + 0.0:.3f}" for each in values.tolist()])
+        for name in _SHORT:
+            field, values = FIELDS[name], self.columns[name]
+            if np.isnan(values).all():
+                continue
+            digits = min(field.digits, 3)
+            names.append(field.symbol)
+            units.append("" if field.unit == "-" else field.unit)
+            columns.append([
+                "-" if np.isnan(each) else f"{each + 0.0:.{digits}f}" for each in values.tolist()
+            ])  # fmt: skip
+        return (names, units), [list(row) for row in zip(*columns, strict=True)]
 
     def __len__(self) -> int:
         return len(self.positions)

@@ -29,6 +29,7 @@ from assoc_hull.analysis.hydrostatics.flotation import (
     EvenKeelDisplacement,
     even_keel_displacement,
 )
+from assoc_hull.arguments import small_length
 from assoc_hull.edit.displacement_field import SolvedField, quintic_fade
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.field_moves import FieldMoves
@@ -424,7 +425,8 @@ def _noise(state: HullState, problem: BattenProblem, asked: Noise) -> tuple[floa
         _refuse_few(state, problem)
         return estimate_noise(problem, factor), "estimated from the lines"
     if asked is not None:
-        return float(asked), "stated"
+        length = state.particulars.length
+        return small_length(asked, "noise", _WHERE, length), "stated"
     unit, estimate = table_unit(state), None
     with contextlib.suppress(BadInputError):
         _refuse_few(state, problem)

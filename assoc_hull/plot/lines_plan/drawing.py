@@ -57,7 +57,8 @@ def particulars_of(drawing: Drawing) -> list[tuple[str, str]]:
     """Give the principal particulars as they are printed."""
     ship = drawing.particulars
     counts = [
-        (len(drawing.of(family)), family) for family in ("sections", "waterlines", "buttocks")
+        (len(drawing.of(family)), family)
+        for family in ("sections", "waterlines", "buttocks", "diagonals")
     ]
     (aft, *_), (fore, *_) = drawing.bounds.tolist()
     return [

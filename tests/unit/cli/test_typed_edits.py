@@ -67,7 +67,6 @@ def test_what_is_typed_gives_the_hull_that_a_file_gives(
         (["rule", "sections", "waterlines", "x"], "cannot be typed; give it in a .json file"),
         (["pull", "WL 2.5 x ST 5", "1mm", "d=2mm"], "'d' of pull is given twice"),
         (["pull"], "missing a required argument: 'point': pull takes POINT D [RADIUS]"),
-        (["pull", "--name", "x", "WL 2.5 x ST 5", "1mm"], "options stand behind all values"),
         (["pull", "WL 2.5 x ST 5", "far"], "(pull, modification 1)"),
     ],
 )
