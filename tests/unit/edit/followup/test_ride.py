@@ -20,7 +20,13 @@ def unlinked(hull: ah.Hull) -> list[str]:
         for place, row in enumerate(order):
             if _rides(hull, row):
                 sides = order[:place][::-1], order[place + 1 :]
-                if [_first_driven(hull, side) for side in sides] != rows.anchor[row].tolist():
+                wanted = [_first_driven(hull, side) for side in sides]
+                # What took the place of a crossing is ridden with where the crossing was.
+                linked = [
+                    want if each >= 0 and rows.stands_for[each] else each
+                    for each, want in zip(rows.anchor[row].tolist(), wanted, strict=True)
+                ]
+                if linked != wanted:
                     wrong.append(rows.key[row])
     return wrong
 
