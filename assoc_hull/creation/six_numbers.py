@@ -430,9 +430,13 @@ _BUTTOCKS = (0.15, 0.3, 0.45, 0.6, 0.75, 0.88)
 def _lines(design: Design, parent: Design) -> Design:
     """Let lines stand at round numbers, as far as the ends of flats allow."""
     ship = design.particulars
+    bulb = any(each.use == "bulb_area" for each in design.definitions)
     stations = list[float]()
     for old, new in zip(parent.stations, design.stations, strict=True):
         place = round(_ROUND * new) / _ROUND if abs(new - old) > 1e-9 else old
+        if abs(place - 20.0) < 0.01 and not bulb:
+            # A stem that overhangs a little below the draught would ask for a bulb there.
+            continue
         if not stations or place - stations[-1] >= _NEAREST:
             stations.append(place)
     digits = 1 if ship.draught >= 8.0 else 2
