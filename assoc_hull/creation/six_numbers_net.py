@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import attrs
+import numpy as np
 
 from assoc_hull.creation.area_swing import half_sums
 from assoc_hull.creation.design import Design
@@ -19,6 +20,7 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.lines.add_line import add_line
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, OutOfRangeError, RefusedEditError
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.two_halves import half_fault, half_number
 from assoc_hull.model.tables import HullState
@@ -29,6 +31,10 @@ _FULLER = 0.015
 """Of the area of a half of the waterline: one step."""
 
 _STEPS = 4
+
+_LEVEL, _LOWEST, _PLACES = 1e-3, 5e-3, 32
+"""m: what dips below the base line by less is told of by nobody; by more than this part of the
+draught, it is refused. Places that are looked at between two points."""
 
 _SHIFTS = (0.0, 0.03, -0.03, 0.06, -0.06)
 """Of the draught or of half the breadth: where else a line is tried."""
@@ -55,7 +61,32 @@ def build_typed(typed: TypedDesign) -> tuple[HullState, AdoptionReport, TypedDes
     heights = _cut(waterline, design.waterlines, ship.draught, "waterline", notes)
     places = _cut(buttock, design.buttocks, 0.5 * ship.breadth, "buttock", notes)
     design = attrs.evolve(design, waterlines=heights, buttocks=places)
+    notes += _below_base(state)
     return state, report, TypedDesign(design, (*typed.notes, *notes))
+
+
+def _below_base(state: HullState) -> list[DesignNote]:
+    """Tell how far the net goes below its base line; refuse what is no ship for it."""
+    lowest, name = 0.0, ""
+    for curve in state.live("curves").tolist():
+        spline = state.spline(curve)
+        # Between two points a curve stays within the corners of its Bezier polygon.
+        length = np.diff(spline.knot) / 3.0
+        z = spline.xyz[:, 2]
+        corners = np.minimum(
+            z[:-1] + length * spline.leave[:-1, 2], z[1:] - length * spline.arrive[1:, 2]
+        )
+        if corners.min() < min(lowest, -_LEVEL):
+            low = float(sample(spline, _PLACES)[1][:, 2].min())
+            if low < lowest:
+                lowest, name = low, str(state.lines.name[state.line_of(curve)])
+    if lowest < -_LOWEST * state.particulars.draught:
+        what = f"{name} would go {-lowest:.2g} m below the base line"
+        raise BadInputError(what, "in a ship from six numbers", "ask for less hollow ends")
+    if lowest > -_LEVEL:
+        return []
+    why = f"{name} dips below the base line: lead it or fair it there"
+    return [DesignNote("lowest place of the net", lowest, "m", "measured", remark=why)]
 
 
 def _with_room(

@@ -7,6 +7,8 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.creation.area_swing import half_sums, swing_areas
 from assoc_hull.creation.six_numbers import SixNumbers, design_for
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.hull.hull import Hull
 from assoc_hull.model.forms.closure import coefficients
 from assoc_hull.shipped.ship_types import SHIP_TYPES, ship_type
@@ -117,3 +119,18 @@ def test_numbers_beside_a_design_are_refused() -> None:
     """A design has its own."""
     with pytest.raises(ah.errors.BadInputError, match="beside a design"):
         ah.create(SHIP_TYPES["general cargo"].parent(), length=100.0)
+
+
+def test_what_dips_below_the_base_line_is_told_and_no_ship_where_it_is_much(cargo: Hull) -> None:
+    """A note names the line and how far; more than half a percent of the draught is refused."""
+    (note,) = [each for each in cargo.notes if each.name == "lowest place of the net"]
+    lowest = min(
+        float(sample(cargo.state.spline(curve), 64)[1][:, 2].min())
+        for curve in cargo.state.live("curves").tolist()
+    )
+    assert note.value == pytest.approx(lowest, abs=1e-4)
+    assert -0.05 < note.value < -1e-3
+    with pytest.raises(BadInputError, match="below the base line"):
+        ah.create(
+            type="ro-ro", length=130.0, breadth=22.0, draught=5.8, depth=13.0, cb=0.62, lcb=-2.0
+        )
