@@ -25,7 +25,7 @@ from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.two_halves import half_fault, half_number
 from assoc_hull.model.tables import HullState
 
-__all__ = ["build_typed"]
+__all__ = ["build_typed", "dips_below_base"]
 
 _FULLER = 0.015
 """Of the area of a half of the waterline: one step."""
@@ -61,12 +61,14 @@ def build_typed(typed: TypedDesign) -> tuple[HullState, AdoptionReport, TypedDes
     heights = _cut(waterline, design.waterlines, ship.draught, "waterline", notes)
     places = _cut(buttock, design.buttocks, 0.5 * ship.breadth, "buttock", notes)
     design = attrs.evolve(design, waterlines=heights, buttocks=places)
-    notes += _below_base(state)
     return state, report, TypedDesign(design, (*typed.notes, *notes))
 
 
-def _below_base(state: HullState) -> list[DesignNote]:
-    """Tell how far the net goes below its base line; refuse what is no ship for it."""
+def dips_below_base(state: HullState) -> list[DesignNote]:
+    """Tell how far a net goes below its base line.
+
+    Raises BadInputError where it is no ship for that.
+    """
     lowest, name = 0.0, ""
     for curve in state.live("curves").tolist():
         spline = state.spline(curve)

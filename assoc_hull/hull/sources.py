@@ -249,7 +249,7 @@ def _from_six(
 ) -> Hull:  # fmt: skip
     """Create a hull from six numbers, its net closed to CB and LCB."""
     from assoc_hull.creation.six_numbers import SixNumbers, design_for
-    from assoc_hull.creation.six_numbers_net import build_typed
+    from assoc_hull.creation.six_numbers_net import build_typed, dips_below_base
     from assoc_hull.shipped.ship_types import ship_type
 
     where = "in a ship from six numbers"
@@ -270,12 +270,13 @@ def _from_six(
     try:
         state, report, typed = build_typed(typed)
         hull, typed = _closed(Hull(state), asked, typed)
+        low = dips_below_base(hull.state)
     except (BadInputError, OutOfRangeError, RefusedEditError) as error:
         what = f"cb of {asked.cb:g} and lcb of {asked.lcb:g} m fight with lines of a {kind}"
         raise BadInputError(
             what, where, f"give another cb or lcb, or another type; what failed: {error}"
         ) from error
-    hull.adoption, hull.notes = report, typed.notes
+    hull.adoption, hull.notes = report, (*typed.notes, *low)
     return hull
 
 
