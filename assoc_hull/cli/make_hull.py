@@ -452,8 +452,7 @@ def add_create(commands: Commands) -> None:
         """assoc-hull create --example > design.json
         assoc-hull create design.json -o ship.hull
         assoc-hull create design.json -o ship.hull --json
-        assoc-hull create --type tanker --length 225 --breadth 32.2 --draught 14 \\
-          --depth 19.5 --cb 0.82 --lcb-percent 2.7 -o ship.hull""",
+        assoc-hull create --length 225 --breadth 32 --draught 14 --depth 19 --cb .82 --lcb 6""",
     )  # fmt: skip
     parser.add_argument("--type", metavar="TYPE", help="of a ship from six numbers: " + _TYPES)
     for name, what in (

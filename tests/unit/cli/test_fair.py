@@ -87,7 +87,7 @@ def test_a_refused_hull_is_told_with_exit_code_1(
     """All findings, and a way out."""
     ah.examples.series60(cb=0.7).save(tmp_path / "ship.hull.json")
     before = (tmp_path / "ship.hull.json").read_bytes()
-    assert main(["fair", str(tmp_path / "ship.hull.json"), "--noise", "2000"]) == 1
+    assert main(["fair", str(tmp_path / "ship.hull.json"), "--noise", "100"]) == 1
     found = capsys.readouterr()
     assert "half the noise" in found.out
     assert "the hull is unchanged" in found.err
