@@ -452,7 +452,8 @@ def add_create(commands: Commands) -> None:
         """assoc-hull create --example > design.json
         assoc-hull create design.json -o ship.hull
         assoc-hull create design.json -o ship.hull --json
-        assoc-hull create --length 90 --breadth 15 --draught 6 --depth 8.5 --cb .8 --lcb 1 -o b.hull""",
+        assoc-hull create --length 90 --breadth 15 --draught 6 --depth 8.5 --cb .8 --lcb 1 -o b.hull
+        """,
     )  # fmt: skip
     parser.add_argument("--type", metavar="TYPE", help="of a ship from six numbers: " + _TYPES)
     for name, what in (
