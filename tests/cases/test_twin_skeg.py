@@ -198,7 +198,8 @@ def test_the_after_body_has_the_volume_of_the_construction() -> None:
 def test_hydrostatics_take_her(draughts: tuple[float, float]) -> None:
     """No line is doubtful, and the number is good, where pieces are immersed apart, too."""
     found = ship.twin_skeg_ship().hydrostatics(draughts=draughts)
-    assert found.notes == ()
+    # At trim a coefficient may exceed 1, which is told and no doubt of a line.
+    assert [note for note in found.notes if "may exceed 1 at trim" not in note] == []
 
 
 @pytest.mark.parametrize("draught", [None, 18.0, 5.0])

@@ -88,7 +88,8 @@ def test_a_closed_deck_under_water_counts_nothing_in_s_nor_does_the_transom(
     assert found.transom_area == pytest.approx(transom, rel=NEAR)
     with_it = hull.hydrostatics(draught=draught, heel_deg=heel, transom=True).wetted_surface
     assert with_it == pytest.approx(found.wetted_surface + found.transom_area, rel=1e-12)
-    assert found.notes == ()
+    # At heel a coefficient may exceed 1, which is told and no doubt of the hull.
+    assert [note for note in found.notes if "may exceed 1 at trim or heel" not in note] == []
 
 
 @pytest.mark.parametrize("rake", [0.3, -0.4])

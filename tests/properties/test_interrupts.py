@@ -20,6 +20,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.drag import _QuickWay
+from assoc_hull.edit.transaction import Transaction
 from tests.properties.test_program_edits import Count, by_program
 from tests.properties.test_published_states import content
 
@@ -98,6 +99,12 @@ ONLY = {
 """Where interrupts of an act come; anywhere in the package if it is not here."""
 
 
+LEAVE = Transaction.__exit__.__code__
+ENTERED = sorted({line for *_, line in LEAVE.co_lines() if line is not None})[2]
+"""What ends an edit begins with two lines that say `try`: no Python lies before them that could
+answer an interrupt that comes there, and none is raised at them."""
+
+
 class Tracer:
     """Counts the lines of the package, or of some modules, that are passed; raises at one."""
 
@@ -109,6 +116,8 @@ class Tracer:
         """Trace the package only."""
         if not frame.f_code.co_filename.startswith(ROOT):
             return None
+        if frame.f_code is LEAVE and frame.f_lineno <= ENTERED:
+            return self
         if event == "line" and frame.f_code.co_filename.startswith(self.only):
             self.seen += 1
             if self.seen == self.at:

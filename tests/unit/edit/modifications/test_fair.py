@@ -418,7 +418,7 @@ def test_a_hull_that_would_fold_is_refused_with_a_way_out(shipped: Shipped) -> N
     hull = shipped("series60_70")
     print_ = hull.fingerprint
     with pytest.raises(RefusedEditError, match="refused") as raised:
-        hull.fair(noise=2.0)
+        hull.fair(noise=0.1)
     assert "half the noise" in raised.value.findings[-1]
     assert hull.fingerprint == print_
 
