@@ -56,7 +56,11 @@ _NOT_YET = {
 
 
 def ship_type(name: str) -> ShipType:
-    """Give a type by its name; raises UnknownNameError, or BadInputError for one not made well."""
+    """Give a type by its name, in any case.
+
+    Raises UnknownNameError, or BadInputError for one that is not made well.
+    """
+    name = " ".join(name.lower().split())
     if name in _NOT_YET:
         known = ", ".join(SHIP_TYPES)
         raise BadInputError(

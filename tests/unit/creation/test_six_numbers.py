@@ -121,6 +121,11 @@ def test_numbers_beside_a_design_are_refused() -> None:
         ah.create(SHIP_TYPES["general cargo"].parent(), length=100.0)
 
 
+def test_a_type_is_found_however_it_is_written() -> None:
+    """Upper and lower case and spaces do not matter."""
+    assert ship_type(" Container  Ship") is SHIP_TYPES["container ship"]
+
+
 def test_what_dips_below_the_base_line_is_told_and_no_ship_where_it_is_much(cargo: Hull) -> None:
     """A note names the line and how far; more than half a percent of the draught is refused."""
     (note,) = [each for each in cargo.notes if each.name == "lowest place of the net"]
