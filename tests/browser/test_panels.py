@@ -94,7 +94,7 @@ def test_hydrostatics_tell_what_changed_since_the_session_began(
     assert box.locator("svg rect").count() > 2
 
 
-def test_a_problem_that_is_found_is_gone_to(open_page: Open, hull: ah.Hull) -> None:
+def test_a_hull_that_is_sound_is_said_to_be(open_page: Open, hull: ah.Hull) -> None:
     """The list tells when nothing is wrong."""
     hand = open_page(hull)
     box = opened(hand, "Problems")
