@@ -2,6 +2,8 @@
 
 import math
 
+from playwright.sync_api import expect
+
 import assoc_hull as ah
 from tests.browser.conftest import Hand, Open
 from tests.taken_back import taken_back
@@ -280,7 +282,7 @@ def test_undo_takes_back_and_redo_makes_again(open_page: Open, hull: ah.Hull) ->
     hand.until("p => p.store.history.edits === 0")
     assert hull.fingerprint == before
     assert hand.shows_what_is_published()
-    assert hand.page.get_by_role("button", name="Undo").is_disabled()
+    expect(hand.page.get_by_role("button", name="Undo")).to_be_disabled()  # drawn a frame later
     hand.page.keyboard.press("Control+y")
     hand.until("p => p.store.history.edits === 1")
     hand.page.keyboard.press("Control+Shift+Z")

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 import assoc_hull as ah
 from tests.browser.conftest import Hand, Open
@@ -30,7 +31,7 @@ def test_a_window_is_faired_as_its_ghost_showed(open_page: Open, hull: ah.Hull) 
     assert hull.fingerprint == before
     hand.page.keyboard.press("Escape")
     assert hand.ask("p => p.store.ghost === null")
-    assert box.get_by_role("button", name="Apply").is_disabled()
+    expect(box.get_by_role("button", name="Apply")).to_be_disabled()  # drawn a frame later
     box.get_by_role("button", name="Preview").click()
     box.get_by_text("Nothing is changed yet").wait_for()
     places = hand.ask("p => [...p.store.ghost.curves].map(([id, c]) => [id, ...c.xyz])")
