@@ -82,10 +82,12 @@ def choose_plan(
         from assoc_hull.variation.faired_followers import ParentLines
 
         lines = ParentLines.of(edit.state, before)
-    best = list[tuple[float, int, SettledPlan]]()
+    best = list[tuple[float, int, StagedCarry]]()
     refusal: tuple[AssocHullError, StagedCarry] | None = None
-    tried, there = set[tuple[Plan, bool]](), None
+    tried = set[tuple[Plan, bool]]()
     left, done = _candidates(ask), list[DoneStage]()
+    # What reaches targets or fairs followers comes after the first round, and may mend a line.
+    last = ask.reach is None and lines is None
     while left:
         plan, together = left.pop(0)
         if (plan, together) in tried:
@@ -94,16 +96,19 @@ def choose_plan(
             edit, ask, plan, not best, together, base=room, lines=lines, done=done
         )  # fmt: skip
         try:
-            if best and not together:  # one round shows whether it is worth more
-                there = None
+            if (best or last) and not together:  # one round shows whether it is worth more
                 carry.run(ask.values)
-                if _judged(edit, before)[1] >= min(each[0] for each in best):
+                fair, worst = _judged(edit, before)
+                if last and worst > KINK:
+                    best.append((worst, fair.added, carry))
                     continue
-            found = there = settle_plan(carry, room)
+                if best and worst >= min(each[0] for each in best):
+                    continue
+            found = settle_plan(carry, room)
         except _OF_TARGETS:
             raise
         except AssocHullError as error:
-            refusal, there = refusal or (error, carry), None
+            refusal = refusal or (error, carry)
             # At its finest it is refused as well.
             left = left if best or together else left[-1:]
             continue
@@ -112,15 +117,18 @@ def choose_plan(
         fair, worst = _judged(edit, before)
         if worst <= KINK:
             return found, fair
-        best.append((worst, fair.added, found))
-    if not best:
-        assert refusal is not None, "there is a plan at least"
-        raise _refused(edit, room, ask, *refusal) from None
-    found = min(best, key=lambda each: each[:2])[2]
-    if found is not there:
-        again = attrs.evolve(found.carry, carried=[], refused=None)  # what is done is shared
-        found = settle_plan(again, room)
-    return found, _judged(edit, before)[0]
+        best.append((worst, fair.added, carry))
+    # None is without a kink: the fairest that meets what is asked.
+    for _, _, carry in sorted(best, key=lambda each: each[:2]):
+        try:
+            # What is done is shared: what stands of it is not done anew.
+            found = settle_plan(attrs.evolve(carry, carried=[], refused=None), room)
+        except AssocHullError as error:
+            refusal = refusal or (error, carry)
+            continue
+        return found, _judged(edit, before)[0]
+    assert refusal is not None, "there is a plan at least"
+    raise _refused(edit, room, ask, *refusal) from None
 
 
 def parent_fairness(state: HullState) -> Mapping[str, LineFairness]:

@@ -29,7 +29,7 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.program.engine import is_compiled
-from assoc_hull.model.tables import Ends, HullState
+from assoc_hull.model.tables import CurveIntersections, Ends, HullState
 
 __all__ = [
     "DefiningPoints",
@@ -152,6 +152,8 @@ class TransformationState(PointImages):
         The crossings there, by the piece and its side.
     extra : dict of int to list of (float, int)
         Points that come to define a driver, with their parameters on it before the mapping.
+    met : dict of int to (CurveIntersections, (k, 3) array)
+        Intersections of curves with planes, as they were when they were mapped, and their images.
     """
 
     maker: Maker
@@ -171,6 +173,7 @@ class TransformationState(PointImages):
     ends: dict[tuple[int, int], tuple[int, int]] = attrs.field(factory=dict)
     new_ends: dict[tuple[int, int], int] = attrs.field(factory=dict)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
+    met: dict[int, tuple[CurveIntersections, FloatArray]] = attrs.field(factory=dict)
 
     def add(self, place: FloatArray) -> None:
         """Take in one more point, which has just been made, at its final place."""
@@ -179,6 +182,21 @@ class TransformationState(PointImages):
         self.direct, self.known = np.append(self.direct, True), np.append(self.known, True)
         self.slid, self.still = np.append(self.slid, True), np.append(self.still, False)
         self.slope = np.concatenate([self.slope, np.eye(3)[None]])
+
+    def met_images(self, curve: int) -> FloatArray:
+        """Give where the mapping sends the intersections of a curve with planes, (k, 3), m."""
+        meets = self.state.curves.meets.data
+        if not self.met:
+            # All curves at once: each call of a mapping costs more than the places that it maps.
+            live = self.state.live("curves").tolist()
+            count = np.cumsum([len(meets[each].xyz) for each in live])[:-1]
+            every = self.space.places(np.concatenate([meets[each].xyz for each in live]))
+            parts = zip(live, np.split(every, count), strict=True)
+            self.met |= {each: (meets[each], part) for each, part in parts}
+        known = self.met.get(curve)
+        if known is None or known[0] is not meets[curve]:
+            known = self.met[curve] = meets[curve], self.space.places(meets[curve].xyz)
+        return known[1]
 
     def piece(self, line: int, place: FloatArray) -> int:
         """Give the curve of a line whose carried points come nearest to a place."""

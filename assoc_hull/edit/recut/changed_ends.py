@@ -71,7 +71,7 @@ def aligned_pairs(
     new = np.flatnonzero(roots.curve == local)
     touch = work.touches.get((curve, line))
     new = new[without_double_roots(work.state, roots.xyz[new], touch.xyz if touch else None)]
-    carried = work.space.places(meets.xyz[old]) if len(old) else np.zeros((0, 3))
+    carried = work.met_images(curve)[old]
     return old, new, align_plane_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new])
 
 
@@ -98,7 +98,8 @@ def has_changed_ends(
     lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
     if len(pairs) < len(new) or bool((meets.row[old[lost]] >= 0).any()):
         return True
-    slip = [work.space.places(meets.xyz[old[[i]]])[0] - roots.xyz[new[j]] for i, j in pairs]
+    carried = work.met_images(curve)[old]
+    slip = [carried[i] - roots.xyz[new[j]] for i, j in pairs]
     far = [float((step * step).sum()) > one_place(state) ** 2 for step in slip]
     ends = new[[j for (_, j), away in zip(pairs, far, strict=True) if away]]
     return bool(runs_along_plane(work, curve, line, roots.t[ends]).any())

@@ -171,10 +171,15 @@ def cut_drivers(work: TransformationState, index: Index) -> CurveImages:
     batch = SplineBatch.join([state.spline(c) for c in curves.tolist()])
     image = CurveImages.of(work.space, batch, tuple(curves.tolist()))
     slid: dict[int, float] = {}
-    for line in _followers(work):
-        some = _partners(work, index, line, curves)
-        if len(some):
-            _cut_with(work, image, curves, some, line, slid)
+    cuts = [
+        (line, some, needed) for line in _followers(work)
+        if len(some := _partners(work, index, line, curves))
+        and (needed := _to_be_cut(work, image, curves, some, line))
+    ]  # fmt: skip
+    lines = [line for line, _, _ in cuts]
+    met = image.meet(work.planes.normal[lines], work.planes.offset[lines])
+    for (line, some, needed), roots in zip(cuts, met, strict=True):
+        _cut_with(work, curves, some, needed, line, roots, slid)
     find_kept_runs(work)
     for local, curve in enumerate(curves.tolist()):
         knots = image.batch.knot[image.batch.start[local] : image.batch.start[local + 1]]
@@ -201,25 +206,27 @@ def _partners(work: TransformationState, index: Index, line: int, curves: IntArr
     return np.flatnonzero(np.isin(owner, groups))
 
 
+def _to_be_cut(
+    work: TransformationState, image: CurveImages, curves: IntArray, some: IntArray, line: int
+) -> list[int]:
+    """Give the places in `curves` of drivers whose meetings with a follower have changed."""
+    old, new = float(work.state.lines.offset[line]), float(work.planes.offset[line])
+    other = image.changed(work.planes.normal[line], old, new, IN_PLANE)
+    return [
+        local for local in some.tolist()
+        if other[local] or _off(work, curves[local], line)
+        or (int(curves[local]), line) in work.touches
+    ]  # fmt: skip
+
+
 def _cut_with(
-    work: TransformationState, image: CurveImages, curves: IntArray, some: IntArray, line: int,
-    slid: dict[int, float],
+    work: TransformationState, curves: IntArray, some: IntArray, needed: list[int], line: int,
+    roots: ImageIntersections, slid: dict[int, float],
 ) -> None:  # fmt: skip
-    """Cut the images with the plane of one follower, where that has changed.
+    """Cut drivers with the plane of one follower, at the roots of their images.
 
     `slid` takes the new parameters (m) of crossings on their drivers.
     """
-    planes, table = work.planes, work.state.lines
-    normal, offset = planes.normal[line], float(planes.offset[line])
-    new = image.changed(normal, float(table.offset[line]), offset, IN_PLANE)
-    needed = [
-        local for local in some.tolist()
-        if new[local] or _off(work, curves[local], line)
-        or (int(curves[local]), line) in work.touches
-    ]  # fmt: skip
-    if not needed:
-        return
-    roots = image.meet(normal, offset)
     other = any(has_changed_ends(work, int(curves[local]), line, local, roots) for local in needed)
     if other and not hand_over_ends(work, curves, some, line, roots):
         work.anew[line] = {}
@@ -259,9 +266,9 @@ def _match(
             work.value[row] = snap_into_planes(work.state, work.planes, np.array([row]), place)[0]
             work.known[row] = work.slid[row] = True
             slid[row] = float(roots.t[new[other]])
-    lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
+    lost = sorted(set(range(len(old))) - {one for one, _ in pairs})
     work.gone |= set(meets.row[old[lost]].tolist()) - {-1}
-    for other in np.setdiff1d(np.arange(len(new)), [other for _, other in pairs]).tolist():
+    for other in sorted(set(range(len(new))) - {other for _, other in pairs}):
         _add_intersection(work, curve, line, roots, int(new[other]))
 
 

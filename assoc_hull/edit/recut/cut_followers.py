@@ -111,8 +111,9 @@ def cut_kept(work: TransformationState) -> None:
     batch = SplineBatch.join([state.spline(curve) for curve in curves])
     image = CurveImages.of(work.space, batch, tuple(curves))
     lines = {state.line_of(work.other(row, c)) for c, rows in wanted.items() for row in rows}
-    for line in sorted(lines, key=lambda each: str(state.lines.key[each])):
-        roots = image.meet(work.planes.normal[line], float(work.planes.offset[line]))
+    ordered = sorted(lines, key=lambda each: str(state.lines.key[each]))
+    met = image.meet(work.planes.normal[ordered], work.planes.offset[ordered])
+    for line, roots in zip(ordered, met, strict=True):
         for local, curve in enumerate(curves):
             if any(state.line_of(work.other(row, curve)) == line for row in wanted[curve]):
                 _settle(work, curve, line, roots, np.flatnonzero(roots.curve == local))
@@ -146,7 +147,7 @@ def _settle(
     off = plane_heights(roots.xyz[new], work.planes.normal[own]) - work.planes.offset[own]
     meets: CurveIntersections = work.state.curves.meets[curve]
     old = np.flatnonzero(meets.line == line)
-    carried = work.space.places(meets.xyz[old])
+    carried = work.met_images(curve)[old]
     for one, other in align_plane_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new]):
         row = int(meets.row[old[one]])
         if row >= 0 and not work.known[row] and abs(float(off[other])) <= IN_PLANE:
@@ -494,7 +495,7 @@ def _cut_one(
     meets: CurveIntersections = work.state.curves.meets[curve]
     old = np.flatnonzero(meets.line == line)
     met = intersect_planes(spline, work.planes.normal[line], work.planes.offset[[line]])
-    pairs = align_plane_roots(meets.sign[old], work.space.places(meets.xyz[old]), met.sign, met.xyz)
+    pairs = align_plane_roots(meets.sign[old], work.met_images(curve)[old], met.sign, met.xyz)
     found = {int(meets.row[old[one]]): other for one, other in pairs}
     for row in meets.row[old].tolist():
         if row in found and row in wanted:

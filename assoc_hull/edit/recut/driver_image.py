@@ -6,6 +6,8 @@ with the image itself, so a crossing does not depend on how the curve is lofted 
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import attrs
 import numpy as np
 
@@ -110,18 +112,33 @@ class CurveImages:
         other = ((was >= 0.0) != (now >= 0.0)) & ~((np.abs(was) <= near) & (np.abs(now) <= near))
         return np.bincount(self.owner[other], minlength=self.batch.count) > 0
 
-    def meet(self, normal: FloatArray, offset: float) -> ImageIntersections:
-        """Meet the images with a plane."""
-        level = plane_heights(self.after, normal) - offset
-        above = level >= 0.0
-        low = np.flatnonzero((above[1:] != above[:-1]) & (self.owner[1:] == self.owner[:-1]))
-        curve, sign = self.owner[low], np.where(above[low], -1, 1).astype(np.int8)
+    def meet(self, normals: FloatArray, offsets: FloatArray) -> list[ImageIntersections]:
+        """Meet the images with planes, (p, 3) and (p,), m: plane by plane."""
+        lows, levels = list[IntArray](), list[FloatArray]()
+        same = self.owner[1:] == self.owner[:-1]
+        for normal, offset in zip(normals, offsets.tolist(), strict=True):
+            level = plane_heights(self.after, normal) - offset
+            above = level >= 0.0
+            lows.append(np.flatnonzero((above[1:] != above[:-1]) & same))
+            levels.append(np.stack([level[lows[-1]], level[lows[-1] + 1]]))
+        if not lows:
+            return []
+        # All planes at once: each call of a mapping costs more than the places that it maps.
+        low, level = np.concatenate(lows), np.concatenate(levels, axis=1)
+        plane = np.repeat(np.arange(len(lows)), [len(each) for each in lows])
+        curve, sign = self.owner[low], np.where(level[0] >= 0.0, -1, 1).astype(np.int8)
         t = false_position(
-            lambda rows, at: plane_heights(self.at(curve[rows], at), normal) - offset,
-            self.t[low], self.t[low + 1], level[low], level[low + 1],
+            lambda rows, at: (
+                plane_heights(self.at(curve[rows], at), normals[plane[rows]]) - offsets[plane[rows]]
+            ),
+            self.t[low], self.t[low + 1], level[0], level[1],
         )  # fmt: skip
         xyz = self.at(curve, t) if len(t) else np.zeros((0, 3))
-        return ImageIntersections(curve, t, xyz, sign)
+        ends = np.searchsorted(plane, np.arange(len(lows) + 1))
+        return [
+            ImageIntersections(curve[a:b], t[a:b], xyz[a:b], sign[a:b])
+            for a, b in pairwise(ends.tolist())
+        ]
 
 
 def image_misfit(

@@ -24,7 +24,7 @@ from assoc_hull.edit.recut.projected_image import ProjectedImage, projected_imag
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.fairness.combs import DEAD_BAND, comb_integrals, curvature_sign_changes
 from assoc_hull.geometry.splines.curve_order import curve_folds
-from assoc_hull.geometry.splines.distance import closest_points
+from assoc_hull.geometry.splines.distance import closest_points, closest_points_each
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.kinds import Sort
@@ -114,18 +114,23 @@ def choose_fair_options(
     best = _Trial(found, frozenset(i for i, each in enumerate(options) if _is_in(found, each)))
     normal = work.planes.normal[work.state.line_of(curve)]
     was = _unfair(work.state.spline(curve), normal)
-    cost = _costs(work, curve, [best], normal, was)[0]
+    cost = _costs(_lofted(work, curve, [best]), normal, was)[0]
+    most = 0 if cost == (0, 0.0) else len(curve_folds(work.state.spline(curve)))
     for _ in range(_ROUNDS):
-        if cost == (0, 0.0):
+        trials = [] if cost == (0, 0.0) else _toggled(best, options)
+        if not trials:
             break
-        trials = _toggled(best, options)
-        costs = _costs(work, curve, trials, normal, was)
+        splines = _lofted(work, curve, trials)
+        costs = _costs(splines, normal, was)
+        folds = np.bincount(curve_folds(splines).curve, minlength=len(trials))
         order = sorted(range(len(trials)), key=lambda i: costs[i])
-        better = [trials[i] for i in order if costs[i] < cost][:_ROUNDS]
-        chosen = next((each for each in better if _may(work, curve, each, options)), None)
-        if chosen is None:
+        better = [i for i in order if costs[i] < cost][:_ROUNDS]
+        better = [i for i in better if folds[i] <= most]
+        passing = _passing(splines, better, [trials[i].taken for i in better], options)
+        if not passing:
             break
-        best, cost = chosen, costs[trials.index(chosen)]
+        chosen = passing[0]
+        best, cost = trials[chosen], costs[chosen]
     found.row, found.place = best.points.row, best.points.place
     return tuple(sorted(best.taken))
 
@@ -175,35 +180,42 @@ def _unfair(spline: SplineBatch, normal: FloatArray) -> tuple[IntArray, FloatArr
     return curvature_sign_changes(spline, normals, DEAD_BAND), comb_integrals(spline, normals)
 
 
+def _lofted(work: TransformationState, curve: int, trials: Sequence[_Trial]) -> SplineBatch:
+    """Make a follower through the points of each trial."""
+    return loft(curve_data_through(work, [curve] * len(trials), [each.points for each in trials]))
+
+
 def _costs(
-    work: TransformationState, curve: int, trials: Sequence[_Trial], normal: FloatArray,
-    was: tuple[IntArray, FloatArray],
-) -> list[tuple[int, float]]:  # fmt: skip
+    splines: SplineBatch, normal: FloatArray, was: tuple[IntArray, FloatArray]
+) -> list[tuple[int, float]]:
     """Give how much less fair trials are than the follower was: (0, 0.0) where they are not.
 
     First counts the changes of sign of the curvature that are more, then the comb integral.
     """
-    if not trials:
-        return []
-    batch = loft(curve_data_through(work, [curve] * len(trials), [each.points for each in trials]))
-    signs, comb = _unfair(batch, normal)
+    signs, comb = _unfair(splines, normal)
     more = np.maximum(signs - was[0][0], 0)
     grown = np.where((more > 0) | (comb > _COMB * was[1][0]), comb, 0.0)
     return list(zip(more.tolist(), grown.tolist(), strict=True))
 
 
-def _may(
-    work: TransformationState, curve: int, trial: _Trial, options: Sequence[OptionalPoint]
-) -> bool:
-    """Tell whether a trial passes all options within their limits, and does not fold."""
-    spline = loft(curve_data_through(work, [curve], [trial.points]))
-    if len(curve_folds(spline)) > len(curve_folds(work.state.spline(curve))):
-        return False
-    left = [each for i, each in enumerate(options) if i not in trial.taken]
-    if not left:
-        return True
-    _, _, away = closest_points(spline, 0, np.array([each.place for each in left]))
-    return bool((away <= np.array([each.limit for each in left])).all())
+def _passing(
+    splines: SplineBatch, chosen: Sequence[int], taken: Sequence[frozenset[int]],
+    options: Sequence[OptionalPoint],
+) -> list[int]:  # fmt: skip
+    """Give those of chosen curves that pass all options but those taken within their limits."""
+    pairs = [
+        (curve, i) for curve, without in zip(chosen, taken, strict=True)
+        for i in range(len(options)) if i not in without
+    ]  # fmt: skip
+    if not pairs:
+        return list(chosen)
+    curve, option = np.array(pairs, np.int64).T
+    places = np.array([each.place for each in options])[option]
+    # All at once: one call for each curve costs more than what it finds.
+    _, _, away = closest_points_each(splines, curve, places)
+    far = away > np.array([each.limit for each in options])[option]
+    failing = set(curve[far].tolist())
+    return [each for each in chosen if each not in failing]
 
 
 # --------------------------------------------------------------------------------------
@@ -365,13 +377,14 @@ def tie_to_own_points(
     """
     if not own:
         return
-    trials = list[DefiningPoints]()
+    trials, sound = list[DefiningPoints](), False
     for doubt in _DOUBTS:
         trials.append(DefiningPoints(list(found.row), list(found.place), []))
         _taken(work, curve, trials[-1], own, doubt)
-        if _sound(work, curve, trials[-1]):
+        sound = _sound(work, curve, trials[-1])
+        if sound:
             break
-    trial = trials[-1] if _sound(work, curve, trials[-1]) else trials[0]
+    trial = trials[-1] if sound else trials[0]
     work.gone |= set(own) - set(trial.row)
     found.row, found.place = trial.row, trial.place
 

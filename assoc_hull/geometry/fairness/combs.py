@@ -193,8 +193,12 @@ class SampledCurvatures:
 def sampled_curvatures(batch: SplineBatch, normals: ArrayLike) -> SampledCurvatures:
     """Give the signed curvature at places along curves, seen in planes with unit normals."""
     first, second, normal = _derivatives(batch, normals, np.linspace(0.0, 1.0, _SAMPLES), 2)
-    value = plane_curvature(first, second, normal).ravel()
-    return SampledCurvatures(batch.count, np.repeat(segment_curve(batch), _SAMPLES), value)
+    # As `plane_curvature`, by components: such arrays are one piece each.
+    flat = first - _dot(first, normal) * normal
+    with np.errstate(invalid="ignore", divide="ignore"):
+        value = _dot(normal, _cross(first, second)) / np.sqrt(_dot(flat, flat)) ** 3
+    owner = np.repeat(segment_curve(batch), _SAMPLES)
+    return SampledCurvatures(batch.count, owner, np.ascontiguousarray(value).ravel())
 
 
 def signs_without_waves(
@@ -280,14 +284,33 @@ def _changing(runs: list[_Run]) -> NDArray[np.bool_]:
 def _derivatives(
     batch: SplineBatch, normals: ArrayLike, u: FloatArray, count: int
 ) -> tuple[FloatArray, ...]:
-    """Give derivatives (s, k, 3) by the segments' parameters, and normals (s, 1, 3)."""
-    normal = check_normals(normals, batch.count)[segment_curve(batch), None]
+    """Give derivatives (3, s, k) by the segments' parameters, and normals (3, s, 1)."""
+    normal = check_normals(normals, batch.count)[segment_curve(batch)]
     cubics, found = power_coefficients(batch), list[FloatArray]()
-    at = np.broadcast_to(u, (len(cubics), len(u)))
+    at = np.broadcast_to(u, (3 * len(cubics), len(u)))
     for _ in range(count):
         cubics = differentiate(cubics)
-        found.append(horner(cubics, at))
-    return *found, normal
+        # One polynomial a component.
+        rows = np.moveaxis(cubics, 2, 0).reshape(-1, cubics.shape[1])
+        found.append(horner(rows, at).reshape(3, len(cubics), len(u)))
+    return *found, np.ascontiguousarray(normal.T)[:, :, None]
+
+
+def _dot(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Give scalar products of vectors (3, ...), as `dot` does of vectors (..., 3)."""
+    product: FloatArray = left[0] * right[0] + left[1] * right[1] + left[2] * right[2]
+    return product
+
+
+def _cross(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Give vector products of vectors (3, ...)."""
+    return np.stack(
+        [
+            left[1] * right[2] - left[2] * right[1],
+            left[2] * right[0] - left[0] * right[2],
+            left[0] * right[1] - left[1] * right[0],
+        ]
+    )
 
 
 def comb_integrals(batch: SplineBatch, normals: ArrayLike) -> FloatArray:
@@ -330,11 +353,12 @@ def comb_integrals(batch: SplineBatch, normals: ArrayLike) -> FloatArray:
     """
     nodes, weights = gauss(_NODES)
     first, second, third, normal = _derivatives(batch, normals, nodes, 3)
-    first, second, third = (each - dot(each, normal)[..., None] * normal
-                            for each in (first, second, third))  # fmt: skip
-    square, growth = dot(first, first), 2.0 * dot(first, second)
-    bend = dot(normal, np.cross(first, second))
-    turn = dot(normal, np.cross(first, third))
+    first, second, third = (
+        each - _dot(each, normal) * normal for each in (first, second, third)
+    )  # fmt: skip
+    square, growth = _dot(first, first), 2.0 * _dot(first, second)
+    bend = _dot(normal, _cross(first, second))
+    turn = _dot(normal, _cross(first, third))
     with np.errstate(invalid="ignore", divide="ignore"):
         # (dk/ds)^2 ds = (c' w - 1.5 c w')^2 / v^12 v du
         density = (turn * square - 1.5 * bend * growth) ** 2 / square**5.5
