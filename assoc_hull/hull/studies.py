@@ -22,6 +22,7 @@ from assoc_hull.edit.document import Document, HasDocument
 from assoc_hull.edit.recording import VariedValues
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import IntArray
+from assoc_hull.geometry.numeric.blas_threads import one_thread
 from assoc_hull.io.tables.study import (
     study_array,
     study_csv,
@@ -36,7 +37,6 @@ from assoc_hull.study.design import StudyDesign
 from assoc_hull.study.pareto import pareto_front
 from assoc_hull.study.run import StudyRow, StudyRun
 from assoc_hull.study.run_study import run_study
-from assoc_hull.study.side_processes import one_thread
 from assoc_hull.variation.earlier_values import varied_values
 
 __all__ = ["Study", "make_study"]

@@ -30,13 +30,13 @@ from assoc_hull.errors import (
     MissingExtraError,
     WrongTypeError,
 )
+from assoc_hull.geometry.numeric.blas_threads import one_thread
 from assoc_hull.graph.gate import Gate
 from assoc_hull.study.row_queue import RowQueue
 from assoc_hull.study.run import StudyRow, StudyRun
 from assoc_hull.study.side_processes import (
     RowBatch,
     make_batch,
-    one_thread,
     pack_run,
     process_ended,
     require_first_process,

@@ -17,25 +17,21 @@ from collections.abc import Generator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
 from multiprocessing import get_context, parent_process
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.numeric.blas_threads import one_thread
 from assoc_hull.geometry.splines.backend import backend
 from assoc_hull.model.tables import copy_state
 from assoc_hull.study.prepared_parent import StudyParent
 from assoc_hull.study.row_queue import RowQueue
 from assoc_hull.study.run import StudyRow, StudyRun, make_rows
 
-if TYPE_CHECKING:
-    from threadpoolctl import threadpool_limits
-
 __all__ = [
     "RowBatch",
     "make_batch",
-    "one_thread",
     "pack_run",
     "process_ended",
     "require_first_process",
@@ -83,14 +79,6 @@ def versions() -> dict[str, str]:
     numerical = {each.__name__: each.__version__ for each in (np, scipy)}
     # compiled sums differ from those of numpy in the last digits
     return {"assoc-hull": str(package["__version__"]), "sums": backend()} | numerical
-
-
-def one_thread() -> threadpool_limits:
-    """Hold libraries of linear algebra to one thread from now on, or for a block of ``with``."""
-    import scipy.linalg  # noqa: F401  # brings a library of its own, which must be there by now
-    from threadpoolctl import threadpool_limits
-
-    return threadpool_limits(limits=1)
 
 
 def rows_here(run: StudyRun, queue: RowQueue) -> Generator[tuple[StudyRow, ...]]:

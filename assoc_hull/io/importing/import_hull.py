@@ -18,6 +18,7 @@ from assoc_hull.arguments import positive, regular_file
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.edit.adoption.latent_crossings import make_latent_crossings
 from assoc_hull.errors import AssocHullError, BadInputError, NotSoundError
+from assoc_hull.geometry.numeric.blas_threads import one_thread
 from assoc_hull.io.digitised.body_plan import BodyPlanRules, is_body_plan, read_body_plan
 from assoc_hull.io.importing.judge import finding_of, judge, verdict_notes
 from assoc_hull.io.importing.options import ImportOptions
@@ -86,6 +87,12 @@ def import_hull(
     """
     regular_file(path)
     wanted = options or ImportOptions()
+    # The same file gives the same hull to the last bit, however many cores there are.
+    with one_thread():
+        return _import(path, wanted, tell)
+
+
+def _import(path: Path, wanted: ImportOptions, tell: Tell) -> tuple[HullState, ImportReport]:
     own = read_own_file(path, wanted)
     if own is not None and own.state is not None and own.adoption is not None:
         state, report = own.state, ImportReport(own.notes, own.adoption, Verdict())
