@@ -427,28 +427,31 @@ def hold_to_images(work: TransformationState, image: CurveImages, tolerance: flo
     """
     keys = work.state.curves.key.data
     curves = sorted((c for c in work.made if work.drives(c)), key=lambda curve: str(keys[curve]))
-    added = 0
+    added, left = 0, np.arange(len(curves))
     limit = np.array([work.fine.get(curve, tolerance) for curve in curves])
     least = np.array([_LEAST_FINE if curve in work.fine else _LEAST for curve in curves])
     least *= work.state.tolerances.factor
     for _ in range(_ROUNDS):
-        batch = loft(curve_data_through(work, curves), [str(keys[curve]) for curve in curves])
-        at = np.concatenate([np.array(work.made[curve].at) for curve in curves])
-        away, middle = image_misfit(image, np.arange(len(curves)), batch, at)
+        now = [curves[i] for i in left.tolist()]
+        batch = loft(curve_data_through(work, now), [str(keys[curve]) for curve in now])
+        at = np.concatenate([np.array(work.made[curve].at) for curve in now])
+        away, middle = image_misfit(image, left, batch, at)
         count = np.diff(batch.start) - 1
-        owner = np.repeat(np.arange(len(curves)), count)
+        local = np.repeat(np.arange(len(left)), count)
+        owner = left[local]
         chord = np.delete(np.diff(batch.knot), batch.start[1:-1] - 1)
         wide = np.flatnonzero((away > limit[owner]) & (chord > least[owner]))
         if not len(wide):
             break
         places = image.at(owner[wide], middle[wide])
-        segment = wide - np.concatenate([[0], np.cumsum(count)])[owner[wide]]
+        segment = wide - np.concatenate([[0], np.cumsum(count)])[local[wide]]
         for i in range(len(wide) - 1, -1, -1):
             part, before = work.made[curves[owner[wide[i]]]], int(segment[i]) + 1
             part.row.insert(before, -1)
             part.place.insert(before, _in_plane(work, curves[owner[wide[i]]], places[i]))
             part.at.insert(before, float(middle[wide[i]]))
             added += 1
+        left = np.unique(owner[wide])  # the others stay as they are
     return added
 
 
