@@ -454,10 +454,17 @@ def _depends_on(state: HullState) -> tuple[object, ...]:
 
 
 def body_of(hull: HasState) -> FloatingBody:
-    """Make what can be measured of a hull."""
+    """Make what can be measured of a hull, less the tunnels that it holds."""
     # The one place where hydrostatics takes the integrals of a net.
-    body: FloatingBody = flotation(state_of(hull))
-    return body
+    state = state_of(hull)
+    body: FloatingBody = flotation(state)
+    if not state.tunnels:
+        return body
+    # A hull without tunnels measures none.
+    from assoc_hull.analysis.hydrostatics.tunnel import kept_tunnels
+    from assoc_hull.analysis.hydrostatics.tunnelled_body import TunnelledBody
+
+    return TunnelledBody(body, kept_tunnels(state))
 
 
 def header_of(hull: HasState, body: FloatingBody, terms: Mapping[str, object]) -> HydrostaticHeader:
@@ -470,6 +477,8 @@ def header_of(hull: HasState, body: FloatingBody, terms: Mapping[str, object]) -
     chosen: dict[str, object] = {
         "kg": None, "keel_thickness": 0.0, "transom": False, "date": None, **terms
     }  # fmt: skip
+    if not isinstance(body, Flotation):
+        chosen["tunnels"] = state.tunnels
     if "fingerprint" not in chosen:
         chosen["fingerprint"] = fingerprint(state)
     return HydrostaticHeader(
