@@ -248,3 +248,13 @@ def test_edits_of_tunnels_are_replayed_on_another_hull(hull: ah.Hull) -> None:
     assert place(other) == place(hull)
     other.apply("away", [{"op": "remove_tunnel", "name": "bow thruster"}])
     assert not other.tunnels
+
+
+def test_a_preview_and_a_comparison_tell_what_a_tunnel_takes(shared: ah.Hull) -> None:
+    """No line would change, and the volume is less by that of the tunnel."""
+    asked = [{"op": "tunnel", "name": "bow thruster", **BOW}]
+    seen = shared.preview(asked)
+    less = shared.tunnel("t", **BOW).volume
+    assert seen.lines == ()
+    assert seen.volume_change == pytest.approx(-less, rel=1e-9)
+    assert not shared.tunnels
