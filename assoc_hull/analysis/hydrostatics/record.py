@@ -440,7 +440,7 @@ class HydrostaticHeader:
 
     def _added(self) -> Iterator[tuple[str, str]]:
         if not self.appendages:
-            yield "appendages", "none: bare hull"
+            yield "appendages", "none" if self.tunnels else "none: bare hull"
         for each in self.appendages:
             x, y, z = each.centroid
             yield (

@@ -98,7 +98,7 @@ def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
     move_planes(maker, by.planes)
     if by.particulars != state.particulars:
         edit.journal.set(state.settings.particulars, [0], [by.particulars])
-    carry_tunnels(state, edit.journal, by.space)
+    pending.notes += carry_tunnels(state, edit.journal, by.space)
     rows = given_points(state)
     edit.write(rows, work.value[rows], "carrying a net")
     pending.features = _features(work, by)

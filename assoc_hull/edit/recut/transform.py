@@ -129,7 +129,7 @@ def transform(
     size = state.particulars
     if particulars is not None:
         edit.journal.set(state.settings.particulars, [0], [particulars])
-    carry_tunnels(state, edit.journal, space)
+    went = carry_tunnels(state, edit.journal, space)
     if not _anything(state, work):
         _tell(edit, work, 0, size)
         return 0
@@ -151,7 +151,7 @@ def transform(
     take_out_lines(edit, work, may_go=lines_may_go)
     _publish(edit, work, turned)
     _tell(edit, work, added, size)
-    edit.pending.notes += kept
+    edit.pending.notes += kept + went
     return added
 
 

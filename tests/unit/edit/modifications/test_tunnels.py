@@ -150,6 +150,19 @@ def test_a_variation_carries_the_middle_of_the_axis(hull: ah.Hull) -> None:
     assert hull.fingerprint == before
 
 
+def test_targets_of_a_variation_are_of_the_moulded_hull_and_that_is_told(hull: ah.Hull) -> None:
+    """The tunnel goes with the map that was found, within the small moves at its end."""
+    varied = hull.vary(reach={"volume": 2850.0}, free=["length"])
+    found = varied.hull.tunnels["bow thruster"]
+    length = varied.hull.particulars.length
+    assert length > 102.0
+    assert found.x == pytest.approx(0.88 * length, abs=2e-3)
+    assert any("without its tunnels (bow thruster)" in each for each in varied.report.notes)
+    whole = varied.hull.hydrostatics().volume + found.volume
+    assert whole == pytest.approx(2850.0, abs=1e-3)
+    assert any("'bow thruster' went along" in each for each in varied.report.edit.notes)
+
+
 def test_a_transformation_carries_it_as_well(hull: ah.Hull) -> None:
     """A scale about the origin and a shift, by a mapping given as numbers."""
     with hull.edit("wider and forward") as edit:
