@@ -2558,7 +2558,7 @@ features
         The lines part the hull into cells; these are filled with elements that fit together along
         every edge. Deck and transom are covered, whatever the particulars say of the deck, and the
         half is mirrored. The mesh comes from the lines alone: it shares nothing with
-        `Hull.hydrostatics` but these.
+        `Hull.hydrostatics` but these. Tunnels that the hull holds go through it, each a group.
 
         Parameters
         ----------
@@ -2567,7 +2567,7 @@ features
         points : int
             Into how many parts each piece of a line between two crossings is cut: even, 2 to 64.
         leave_out : sequence of str
-            Names of lines to do without.
+            Names of lines and tunnels to do without.
 
         Returns
         -------
