@@ -161,8 +161,6 @@ def tell_losses(state: HullState, book: ExportBook) -> None:
         book.leave_out("groups", "the groups", f"{len(groups)} groups of one's own", len(groups))
     if count := len(state.rulings):
         book.leave_out("rulings", "the associations", f"{count} rulings by regions", count)
-    if count := len(state.tunnels):
-        book.leave_out("tunnels", "the hull", f"{count} tunnels athwartships", count)
     live = state.live("rows")
     for column, word, none in (
         (state.rows.label, "labels of points", ""), (state.rows.override, "roles by hand", -1),

@@ -271,3 +271,14 @@ def test_a_preview_and_a_comparison_tell_what_a_tunnel_takes(shared: ah.Hull) ->
     assert seen.lines == ()
     assert seen.volume_change == pytest.approx(-less, rel=1e-9)
     assert not shared.tunnels
+
+
+def test_an_export_of_lines_tells_that_tunnels_are_left_out(hull: ah.Hull, tmp_path: Path) -> None:
+    """Once; a hull without any has no such line."""
+    for name in ("ship.csv", "ship.dxf"):
+        told = [each for each in hull.export(tmp_path / name).left_out if each.kind == "tunnels"]
+        assert len(told) == 1
+        assert "bow thruster" in str(told[0])
+    hull.undo()
+    assert "tunnels" not in {each.kind for each in hull.export(tmp_path / "bare.csv").left_out}
+    hull.redo()
