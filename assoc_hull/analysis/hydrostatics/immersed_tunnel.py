@@ -34,6 +34,9 @@ _LOOKS = 128
 _ROUNDING = 1e-14
 """Of lengths: a root that is met this near is met."""
 
+_NIL = 1e-15
+"""Parts of the largest coefficient: smaller ones are rounding."""
+
 _LEVEL = 1e-14
 """Heel of a smaller tangent is none: it lifts no side of a ship by a bit."""
 
@@ -84,10 +87,16 @@ class MouthShape:
 
     @cached_property
     def _series(self) -> FloatArray:
-        """Coefficients of both in Legendre polynomials of t and of the place on a chord."""
+        """Coefficients of both in Legendre polynomials of t and of the place on a chord.
+
+        Those behind the last that is more than rounding are left out: few of a plane side remain.
+        """
         node, weight = _both_ways(len(self.breadth))
         own = legvander(node, len(node) - 1) * weight[:, None] * (np.arange(len(node)) + 0.5)
-        found: FloatArray = own.T @ np.stack([self.breadth, self.element]) @ own
+        whole: FloatArray = own.T @ np.stack([self.breadth, self.element]) @ own
+        told = (np.abs(whole) > _NIL * np.abs(whole).max(axis=(1, 2), keepdims=True)).any(axis=0)
+        rows, columns = (int(np.flatnonzero(told.any(axis=way)).max()) + 1 for way in (1, 0))
+        found: FloatArray = np.ascontiguousarray(whole[:, :rows, :columns])
         return found
 
     def breadth_at(self, x: FloatArray, z: FloatArray) -> FloatArray:
@@ -106,8 +115,9 @@ class MouthShape:
         half = self.radius * np.sqrt(1.0 - up * up)
         # At the top and the bottom of the disc a chord is a point, and any place on it will do.
         along = (x - self.x) / np.where(half > 0.0, half, np.inf)
-        last = len(self.breadth) - 1
-        return _legendre(2.0 / np.pi * np.arccos(up) - 1.0, last), _legendre(along, last)
+        _, rows, columns = self._series.shape
+        turn = 2.0 / np.pi * np.arccos(up) - 1.0
+        return _legendre(turn, rows - 1), _legendre(along, columns - 1)
 
     def _value(self, which: int, rows: FloatArray, columns: FloatArray) -> FloatArray:
         found: FloatArray = (rows @ self._series[which] * columns).sum(axis=-1)

@@ -9,13 +9,18 @@ where the half-breadth is a polynomial of low degree.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from types import MappingProxyType
 
 import attrs
 import numpy as np
 
 from assoc_hull.analysis.hydrostatics.floating_body import Appendage
-from assoc_hull.analysis.hydrostatics.immersed_tunnel import MouthShape, disc_places
+from assoc_hull.analysis.hydrostatics.immersed_tunnel import (
+    ImmersedTunnel,
+    MouthShape,
+    disc_places,
+)
 from assoc_hull.arguments import number, positive, text
 from assoc_hull.errors import BadInputError, NoMeetingError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
@@ -84,6 +89,11 @@ class Tunnel:
 
     def __attrs_post_init__(self) -> None:
         freeze(self.mouth)
+
+    @cached_property
+    def immersed(self) -> ImmersedTunnel:
+        """The tunnel as planes cut it."""
+        return ImmersedTunnel(self.shape)
 
     @property
     def appendage(self) -> Appendage:

@@ -8,7 +8,6 @@ waterplane stay those of the hull.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 
 import attrs
 import numpy as np
@@ -53,9 +52,9 @@ class TunnelledBody:
         found: tuple[str, ...] = getattr(self.body, "assumed", ())
         return found
 
-    @cached_property
+    @property
     def _cut(self) -> tuple[ImmersedTunnel, ...]:
-        return tuple(ImmersedTunnel(each.shape) for each in self.tunnels)
+        return tuple(each.immersed for each in self.tunnels)
 
     def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         """Give the integrals below each plane."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pytest
@@ -16,6 +17,8 @@ from assoc_hull.errors import (
     RefusedEditError,
     UnknownNameError,
 )
+from assoc_hull.model.definition.records import definition
+from assoc_hull.model.definition.restore import from_definition
 from tests.taken_back import taken_back
 
 BOW = {"x": 88.0, "z": 3.0, "radius": 0.8}
@@ -282,3 +285,23 @@ def test_an_export_of_lines_tells_that_tunnels_are_left_out(hull: ah.Hull, tmp_p
     hull.undo()
     assert "tunnels" not in {each.kind for each in hull.export(tmp_path / "bare.csv").left_out}
     hull.redo()
+
+
+def test_a_check_finds_tunnels_that_are_wrong_in_a_definition(hull: ah.Hull) -> None:
+    """One that leaves the hull, and two that meet; hydrostatics refuse the first."""
+    told = definition(hull.state)
+    held = cast("list[dict[str, object]]", told["tunnels"])
+    held += [
+        {"name": "low", "x": 50.0, "z": 0.2, "radius": 0.5},
+        {"name": "near", "x": 88.0, "z": 3.2, "radius": 0.3},
+    ]
+    wrong = ah.Hull(from_definition(told))
+    found = [(each.kind, each.object) for each in wrong.check()]
+    assert found == [("tunnel", "bow thruster"), ("tunnel", "low")]
+    assert "0.3 m below its profile" in str(wrong.check()[1])
+    with pytest.raises(BadInputError, match="'low' leaves the hull"):
+        wrong.hydrostatics()
+    with wrong.edit("mended") as edit:
+        edit.remove_tunnel("low")
+        edit.remove_tunnel("near")
+    assert wrong.fingerprint == hull.fingerprint
