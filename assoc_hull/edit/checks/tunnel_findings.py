@@ -20,7 +20,7 @@ def find_lost_tunnels(state: HullState, _: AddressBook) -> Iterator[Finding]:
     """Report tunnels that leave the hull, and those that meet: no edit makes such, a file may."""
     for each, mouth in zip(state.tunnels, kept_mouths(state) if state.tunnels else (), strict=True):
         if isinstance(mouth, BadInputError):
-            _, _, clause = mouth.what.partition("' ")
+            clause = mouth.what.partition("' ")[2]
             remedy = "set it elsewhere with edit.set_tunnel, or remove it"
             yield Finding("tunnel", each.name, (each.x, 0.0, each.z), None, f"{clause}: {remedy}")
     for one, other, told in _meetings(state.tunnels):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import cast
 
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.edit.session import Edit
 from assoc_hull.errors import (
     BadInputError,
     NameTakenError,
@@ -31,7 +33,7 @@ def shared() -> ah.Hull:
 
 
 @pytest.fixture
-def hull(shared: ah.Hull) -> ah.Hull:
+def hull(shared: ah.Hull) -> Iterator[ah.Hull]:
     """The same with a tunnel."""
     with taken_back(shared) as found:
         with found.edit("thruster") as edit:
@@ -212,22 +214,24 @@ def test_no_two_things_have_one_name(hull: ah.Hull, name: str) -> None:
     """Lines, groups and tunnels share theirs, however they are written."""
     with pytest.raises(NameTakenError), hull.edit("taken") as edit:
         edit.tunnel(name, x=20.0, z=3.0, radius=0.5)
-    for act in (
+    acts: list[Callable[[Edit], object]] = [
         lambda edit: edit.add_line("sections", 51.0, "bow thruster"),
         lambda edit: edit.rename("ST 5", "bow thruster"),
         lambda edit: edit.group("bow thruster", ["ST 5"]),
         lambda edit: edit.rename("ST 5 x WL 2.5", "bow thruster"),
-    ):
+    ]
+    for act in acts:
         with pytest.raises(NameTakenError), hull.edit("taken") as edit:
             act(edit)
 
 
 def test_an_unknown_tunnel_is_refused_with_the_names_there_are(hull: ah.Hull) -> None:
     """To set, to remove and to look up."""
-    for act in (
+    acts: list[Callable[[Edit], object]] = [
         lambda edit: edit.set_tunnel("stern thruster", x=3.0),
         lambda edit: edit.remove_tunnel("stern thruster"),
-    ):
+    ]
+    for act in acts:
         with pytest.raises(UnknownNameError, match="bow thruster"), hull.edit("no") as edit:
             act(edit)
     with pytest.raises(BadInputError, match="give x, z or radius"), hull.edit("no") as edit:
