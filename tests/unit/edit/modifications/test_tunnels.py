@@ -309,3 +309,20 @@ def test_a_check_finds_tunnels_that_are_wrong_in_a_definition(hull: ah.Hull) -> 
         edit.remove_tunnel("low")
         edit.remove_tunnel("near")
     assert wrong.fingerprint == hull.fingerprint
+
+
+def test_quick_edits_and_branches_keep_it(hull: ah.Hull) -> None:
+    """After edits by the program it is measured anew; going back to a checkpoint brings it back."""
+    for _ in range(5):
+        with hull.edit("fuller") as edit:
+            edit.move("WL 2.5 x ST 17", by=(0.0, 0.005, 0.0))
+    found = hull.tunnels["bow thruster"]
+    assert found.volume == hull.tunnel("t", **BOW).volume
+    hull.checkpoint("with")
+    held = hull.fingerprint
+    with hull.edit("away") as edit:
+        edit.remove_tunnel("bow thruster")
+    assert hull.diff("with").numbers["tunnels"] == (1.0, 0.0)
+    hull.go("with")
+    assert hull.fingerprint == held
+    assert hull.tunnels["bow thruster"].volume == found.volume
