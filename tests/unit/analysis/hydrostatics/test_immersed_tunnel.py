@@ -105,8 +105,7 @@ def test_the_waterplane_is_how_the_volume_changes(
     for name, moved in (("area", "volume"), ("area_y", "moment_y"), ("area_x", "moment_x")):
         slope = float(high[moved][0] - low[moved][0]) / (2.0 * step)
         scale = 70.0 if name == "area_x" else 1.0
-        # Where the water leaves the disc the area goes as the root of the way: over it, 1e-2.
-        assert float(mid[name][0]) == pytest.approx(slope, abs=0.2 * scale)
+        # Where the water leaves the disc the area goes as the root of the way: 0.08 m2 over 0.1 mm.
         assert float(mid[name][0]) == pytest.approx(slope, rel=1e-2, abs=0.1 * scale)
 
 
