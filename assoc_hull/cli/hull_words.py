@@ -156,7 +156,7 @@ def hull_facts(hull: Hull) -> dict[str, Any]:
         "crossings": dict(Counter(each.role for each in hull.crossings.values())),
         "largest_gap": largest_gap(hull),
         "fingerprint": hull.fingerprint,
-    }
+    } | ({"tunnels": hull.state.tunnels} if hull.state.tunnels else {})
 
 
 def _sorts(hull: Hull) -> dict[str, int]:
@@ -180,6 +180,8 @@ def hull_words(hull: Hull, *, names: bool = False) -> str:
         f"  largest gap  {1e3 * facts['largest_gap']:.2f} mm",
         f"  fingerprint  {facts['fingerprint']}",
     ]
+    if hull.tunnels:
+        lines.insert(-1, wrap_text("tunnels", map(str, hull.tunnels.values())))
     if names:
         lines += [wrap_text(name, group["lines"]) for name, group in facts["groups"].items()]
     return "\n".join(lines)

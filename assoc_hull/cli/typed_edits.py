@@ -107,7 +107,7 @@ def _usage(signature: inspect.Signature) -> str:
         if each.kind is each.VAR_KEYWORD:
             parts.append("[NAME=VALUE ...]")
         elif each.kind is each.KEYWORD_ONLY:
-            parts.append(f"[{name}=]")
+            parts.append(f"{name}=" if each.default is each.empty else f"[{name}=]")
         else:
             parts.append(name.upper() if each.default is each.empty else f"[{name.upper()}]")
     return " ".join(parts)

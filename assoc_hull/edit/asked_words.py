@@ -26,6 +26,9 @@ _WORDS = {
     "straighten": "the straightening of {line}",
     "round": "the rounding of {line}",
     "transform": "the transformation",
+    "tunnel": "the tunnel {name}",
+    "set_tunnel": "the new axis or radius of {name}",
+    "remove_tunnel": "the removal of {name}",
     "set_form": "the new values of {definition}",
 }
 """By modification, with names of its arguments."""

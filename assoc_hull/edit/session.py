@@ -35,6 +35,7 @@ from assoc_hull.edit.modifications import reshape as _reshape
 from assoc_hull.edit.modifications import roles as _renew
 from assoc_hull.edit.modifications import roles as _set_role
 from assoc_hull.edit.modifications import spread as _spread
+from assoc_hull.edit.modifications import tunnels as _tunnels
 from assoc_hull.edit.recording import Said, Script, Settings, VariedValues, recorded
 from assoc_hull.edit.recut import transform as _transform
 from assoc_hull.edit.report import EditReport
@@ -851,11 +852,11 @@ class Edit:
 
     @recorded
     def rename(self, obj: object, name: str) -> None:
-        """Give a line, a point or the hull itself another name; keys stay.
+        """Give a line, a point, a tunnel or the hull itself another name; keys stay.
 
         Parameters
         ----------
-        obj : Line, Point, Crossing, Curve, address, or the hull or None
+        obj : Line, Point, Crossing, Curve, address, name of a tunnel, or the hull or None
             A curve is renamed with its line, whose only one it must be. Groups keep their
             names. None stands for the hull.
         name : str
@@ -863,6 +864,9 @@ class Edit:
         """
         if obj is None or getattr(obj, "document", None) is self._held.document:
             _rename.rename_hull(self._transaction, name)
+            return
+        if isinstance(obj, str) and _tunnels.is_tunnel(self._tables, obj):
+            _tunnels.rename_tunnel(self._transaction, obj, line_name(name))
             return
         _rename.rename(self._transaction, self._given.place(obj), name)
 
@@ -947,6 +951,71 @@ class Edit:
         """
         with self._transaction.whole() as held:
             _knuckles.remove_knuckle_line(held, self._given.line(line))
+
+    @recorded
+    def tunnel(self, name: str, *, x: float, z: float, radius: float) -> None:
+        """Keep a tunnel athwartships through the hull, as a bow thruster has.
+
+        Hydrostatics take off what of it is immersed, the lines plan shows its mouth. The mouth is
+        where the cylinder meets the shell, whatever becomes of that; a mapping and a variation
+        carry the middle of the axis, and the radius stays. `Hull.tunnel` only measures.
+
+        Parameters
+        ----------
+        name : str
+            What it is called.
+        x, z : float, m
+            Of its axis, from AP and from the base line.
+        radius : float, m
+            Of its inside.
+
+        Raises
+        ------
+        NameTakenError
+            A group, a line, a point or a tunnel has the name.
+        OutOfRangeError
+            x lies outside the ship.
+        BadInputError
+            A name that is none, a radius that is not above 0; the mouth leaves the hull below,
+            above or at its ends; another tunnel is met.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> bare = hull.hydrostatics(draught=6.25).volume
+        >>> with hull.edit("bow thruster") as edit:
+        ...     edit.tunnel("bow thruster", x=88.0, z=3.0, radius=0.8)
+        >>> print(hull["bow thruster"])
+        bow thruster: 1.6 m across at x 88, z 3 m: 6.15981 m3, wall 15.3104 m2, openings 4.28877 m2
+        >>> round(bare - hull.hydrostatics(draught=6.25).volume, 5)
+        6.15981
+        """
+        with self._transaction.whole() as held:
+            _tunnels.add_tunnel(held, line_name(name), x, z, radius)
+
+    @recorded
+    def set_tunnel(
+        self, name: str, *, x: float | None = None, z: float | None = None,
+        radius: float | None = None,
+    ) -> None:  # fmt: skip
+        """Give a tunnel another axis or radius, m; what is not given stays.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no tunnel of that name.
+        OutOfRangeError, BadInputError
+            As for `tunnel`; or nothing is given.
+        """
+        with self._transaction.whole() as held:
+            _tunnels.set_tunnel(held, name, x, z, radius)
+
+    @recorded
+    def remove_tunnel(self, name: str) -> None:
+        """Take a tunnel away; `UnknownNameError` if there is none of that name."""
+        with self._transaction.whole() as held:
+            _tunnels.remove_tunnel(held, name)
 
     @recorded
     def transform(

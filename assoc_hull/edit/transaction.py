@@ -392,6 +392,7 @@ class Transaction:
             )  # fmt: skip
         else:
             step = update(self.document, self.name, self.journal, self.pending, self.settings)
+        self._refuse_lost_tunnels()
         step.script = Script.of(self.script, self.settings, self.varied, self.varied_before)
         if self.look is None:
             if (known := self.pending.numbers) is not None:
@@ -402,6 +403,15 @@ class Transaction:
             if known is not None:
                 self.document.when_published = known.publish
         self._step = step
+
+    def _refuse_lost_tunnels(self) -> None:
+        """Refuse an edit after which a tunnel leaves the hull or meets another."""
+        if not self.state.tunnels:
+            return
+        from assoc_hull.edit.checks.tunnel_findings import tunnel_findings
+
+        if findings := tunnel_findings(self.state):
+            raise RefusedEditError(self.name, findings)
 
     def _restore(self) -> None:
         """Take everything back; what was derived from the tables before is true again.

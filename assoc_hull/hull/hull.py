@@ -215,6 +215,14 @@ class Hull:
         return features_by_name(self.state)
 
     @property
+    def tunnels(self) -> Mapping[str, Tunnel]:
+        """The tunnels that the hull holds by name, measured as its shell is now."""
+        from assoc_hull.analysis.hydrostatics.tunnel import kept_tunnels
+
+        found = {each.name: each for each in kept_tunnels(self.state)}
+        return NamedMapping("tunnel", found, spoken=True)
+
+    @property
     def definitions(self) -> Mapping[str, FormDefinition]:
         """Definitions by form parameters by name; `values` of each holds its numbers."""
         return NamedMapping("definition", {each.name: each for each in self.state.definitions})
@@ -552,16 +560,16 @@ class Hull:
         steps = instance(other, Hull, "other", "in replay").document.history
         return replay(self.document, steps, skip=flag(skip, "skip", "in replay"))
 
-    def __getitem__(self, address: str) -> Group | Line | Curve | Point:
-        """Give the line, point, curve or group that an address names, as `find` does."""
-        return handle(self.state, address)
+    def __getitem__(self, address: str) -> Group | Line | Curve | Point | Tunnel:
+        """Give the line, point, curve, group or tunnel that an address names, as `find` does."""
+        return self.find(address)
 
     def __contains__(self, address: object) -> bool:
-        """Whether an address names a line, point, curve or group of the hull."""
+        """Whether an address names a line, point, curve, group or tunnel of the hull."""
         try:
             if isinstance(address, str) and not address.strip():
                 return False  # nothing is named so
-            handle(self.state, text(address, "the address", "in a look-up"))
+            self.find(text(address, "the address", "in a look-up"))
         except UnknownNameError:
             return False
         return True
@@ -569,8 +577,10 @@ class Hull:
     # A hull is no sequence: without this, Python would ask it for hull[0], hull[1], ...
     __iter__ = None
 
-    def find(self, address: str) -> Group | Line | Curve | Point:
-        """Give what an address names; see `assoc_hull.model.address`."""
+    def find(self, address: str) -> Group | Line | Curve | Point | Tunnel:
+        """Give what an address names; see `assoc_hull.model.address`. Tunnels have a name only."""
+        if self.state.tunnels and address in self.tunnels:
+            return self.tunnels[address]
         return handle(self.state, address)
 
     @property
@@ -665,7 +675,9 @@ class Hull:
         return half_breadth(self.state, number(x, "x", where), number(z, "z", where))
 
     def tunnel(self, name: str, *, x: float, z: float, radius: float) -> Tunnel:
-        """Measure a thruster's tunnel athwartships through the hull, as it is now.
+        """Measure a thruster's tunnel athwartships through the hull, as it is now; none is kept.
+
+        `Edit.tunnel` keeps one in the hull, and `tunnels` lists those.
 
         Parameters
         ----------
@@ -2546,7 +2558,7 @@ features
         The lines part the hull into cells; these are filled with elements that fit together along
         every edge. Deck and transom are covered, whatever the particulars say of the deck, and the
         half is mirrored. The mesh comes from the lines alone: it shares nothing with
-        `Hull.hydrostatics` but these.
+        `Hull.hydrostatics` but these. Tunnels that the hull holds go through it, each a group.
 
         Parameters
         ----------
@@ -2555,7 +2567,7 @@ features
         points : int
             Into how many parts each piece of a line between two crossings is cut: even, 2 to 64.
         leave_out : sequence of str
-            Names of lines to do without.
+            Names of lines and tunnels to do without.
 
         Returns
         -------

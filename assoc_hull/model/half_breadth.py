@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NoReturn
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.errors import NoMeetingError
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
@@ -15,7 +17,7 @@ from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState
 
-__all__ = ["half_breadth", "half_breadths"]
+__all__ = ["half_breadth", "half_breadth_rows", "half_breadths"]
 
 _X, _Z = np.eye(3)[0], np.eye(3)[2]
 _APART = 1e-3
@@ -83,18 +85,33 @@ def _meet(
     state: HullState, curves: IntArray, normal: FloatArray, position: float
 ) -> tuple[IntArray, FloatArray]:
     """Meet curves with a plane; give the curve and the place of each meeting."""
+    owner, _, xyz = _meet_planes(state, curves, normal, np.array([float(position)]))
+    return owner, xyz
+
+
+def _meet_planes(
+    state: HullState, curves: IntArray, normal: FloatArray, position: FloatArray
+) -> tuple[IntArray, IntArray, FloatArray]:
+    """Meet curves with planes (p,); give curve, plane and place of each meeting."""
     if not len(curves):
-        return np.zeros(0, np.int64), np.zeros((0, 3))
+        return np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3))
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
-    met = intersect_planes(batch, normal, np.array([float(position)]))
-    return curves[met.curve], met.xyz
+    planes, which = np.unique(position, return_inverse=True)
+    met = intersect_planes(batch, normal, planes)
+    if len(planes) == len(position):
+        return curves[met.curve], np.argsort(which)[met.plane], met.xyz
+    # A height that was asked for twice is met twice.
+    at = [np.flatnonzero(met.plane == each) for each in which.tolist()]
+    every = np.concatenate(at)
+    plane = np.repeat(np.arange(len(position)), [len(each) for each in at])
+    return curves[met.curve[every]], plane, met.xyz[every]
 
 
 def _cut(state: HullState, x: float, z: float) -> float:
     apart = state.tolerances.factor * _APART
     marks = _marks(state, z, apart)
     low, high = _ends(marks)
-    if not low <= x <= high or _between_pieces(marks, x, apart):
+    if not low <= x <= high or _between_pieces(marks, np.array([x]), apart)[0]:
         _refuse(x, z, low, high)
     met = intersect_planes(loft(_data(marks)), _X, np.array([x])).xyz
     ends = marks.xyz[np.abs(marks.xyz[:, 0] - x) == 0.0]
@@ -123,23 +140,77 @@ def half_breadths(state: HullState, x: FloatArray, z: float) -> tuple[FloatArray
     NoMeetingError
         The hull does not come to one of the places.
     """
+    found, slope = half_breadth_rows(state, x[None, :], np.array([z]))
+    return found[0], slope[0]
+
+
+def half_breadth_rows(
+    state: HullState, x: FloatArray, z: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Give half-breadths along several waterlines at once, with the bits of `half_breadths`.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    x : (m, n), m
+        Places along each waterline, in any order.
+    z : (m,), m
+        Their heights.
+
+    Returns
+    -------
+    (m, n) m, (m, n)
+        The largest half-breadth where there are several, and dy/dx there.
+
+    Raises
+    ------
+    NoMeetingError
+        The hull does not come to one of the places; the first that is met is told.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.half_breadth import half_breadth_rows
+    >>> half_breadth_rows(wigley(), np.array([[40.0], [50.0]]), np.array([2.5, 6.25]))[0].round(6)
+    array([[3.072],
+           [5.   ]])
+    """
     apart = state.tolerances.factor * _APART
-    marks = _marks(state, z, apart)
-    low, high = _ends(marks)
-    for each in x.tolist():
-        if not low <= each <= high or _between_pieces(marks, each, apart):
-            _refuse(each, z, low, high)
+    marks = _level_marks(state, z, apart)
+    for places, level, each in zip(x, z.tolist(), marks, strict=True):
+        low, high = _ends(each)
+        outside = ~((low <= places) & (places <= high))
+        if not outside.all():
+            outside |= _between_pieces(each, places, apart)
+        if outside.any():
+            _refuse(float(places[outside.argmax()]), level, low, high)
     planes, which = np.unique(x, return_inverse=True)
-    batch = loft(_data(marks))
+    batch = loft(_joined([_data(each) for each in marks]))
     met = intersect_planes(batch, _X, planes)
-    order = np.lexsort((-met.xyz[:, 1], met.plane))
-    _, first = np.unique(met.plane[order], return_index=True)
-    if len(first) < len(planes):
-        lost = np.setdiff1d(np.arange(len(planes)), met.plane)
-        _refuse(float(planes[lost[0]]), z, low, high)
-    chosen = order[first]
-    along = derivative(batch, met.curve[chosen], met.t[chosen])
-    return met.xyz[chosen, 1][which], (along[:, 1] / along[:, 0])[which]
+    code = met.curve * len(planes) + met.plane
+    order = np.lexsort((-met.xyz[:, 1], code))
+    known, first = np.unique(code[order], return_index=True)
+    wanted = np.arange(len(z))[:, None] * len(planes) + which.reshape(x.shape)
+    place = np.searchsorted(known, wanted)
+    lost = known[np.minimum(place, len(known) - 1)] != wanted if len(known) else x == x
+    if lost.any():
+        row, column = np.unravel_index(int(lost.argmax()), x.shape)
+        _refuse(float(x[row, column]), float(z[row]), *_ends(marks[row]))
+    chosen = order[first[place]]
+    along = derivative(batch, met.curve[chosen].ravel(), met.t[chosen].ravel())
+    return met.xyz[chosen, 1], (along[:, 1] / along[:, 0]).reshape(x.shape)
+
+
+def _joined(parts: Sequence[CurveData]) -> CurveData:
+    """Put the data of curves one behind the other."""
+    count = [len(each.xyz) for each in parts]
+    columns = [
+        np.concatenate([getattr(each, name) for each in parts])
+        for name in ("xyz", "kind", "direction", "end_kind", "end_vector")
+    ]
+    return CurveData(np.concatenate([[0], np.cumsum(count)]), *columns)
 
 
 def _ends(marks: _Marks) -> tuple[float, float]:
@@ -159,9 +230,19 @@ _ASK = "ask for a place between the ends of the hull and below the deck"
 
 def _marks(state: HullState, z: float, apart: float) -> _Marks:
     """Cut sections and boundary curves at a height; one mark at each x, boundaries first."""
+    return _level_marks(state, np.array([float(z)]), apart)[0]
+
+
+def _level_marks(state: HullState, z: FloatArray, apart: float) -> list[_Marks]:
+    """Cut sections and boundary curves at heights (m,); see `_marks`."""
     curves = state.live("curves")
     wanted = [name in ("sections", "boundary") for name in _families(state, curves)]
-    owner, xyz = _meet(state, curves[np.array(wanted, bool)], _Z, z)
+    owner, plane, xyz = _meet_planes(state, curves[np.array(wanted, bool)], _Z, z)
+    return [_thinned(state, owner[plane == i], xyz[plane == i], apart) for i in range(len(z))]
+
+
+def _thinned(state: HullState, owner: IntArray, xyz: FloatArray, apart: float) -> _Marks:
+    """Leave one mark at each x, of boundaries before others, of those the broadest."""
     kind = state.lines.boundary[state.curves.line[owner]].astype(np.int64)
     order = np.lexsort((-xyz[:, 1], xyz[:, 0]))
     kept: list[int] = []
@@ -174,12 +255,12 @@ def _marks(state: HullState, z: float, apart: float) -> _Marks:
     return _Marks(xyz[kept], kind[kept])
 
 
-def _between_pieces(marks: _Marks, x: float, apart: float) -> bool:
-    """Tell whether a place lies between the end of one piece and the beginning of the next."""
-    after = int(np.clip(np.searchsorted(marks.xyz[:, 0], x), 1, len(marks.xyz) - 1))
-    pair = slice(after - 1, after + 1)
-    ends = (marks.boundary[pair] == BoundaryKind.END) & (marks.xyz[pair, 1] <= apart)
-    return bool(ends.all())
+def _between_pieces(marks: _Marks, x: FloatArray, apart: float) -> NDArray[np.bool_]:
+    """Tell which places (n,) lie between the end of one piece and the beginning of the next."""
+    after = np.clip(np.searchsorted(marks.xyz[:, 0], x), 1, len(marks.xyz) - 1)
+    ends = (marks.boundary == BoundaryKind.END) & (marks.xyz[:, 1] <= apart)
+    between: NDArray[np.bool_] = ends[after - 1] & ends[after]
+    return between
 
 
 def _data(marks: _Marks) -> CurveData:

@@ -41,6 +41,7 @@ from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.keys import KeyColumn, LabelColumn, keys, labels
 from assoc_hull.model.kinds import FAMILIES, Family
+from assoc_hull.model.tunnel_definition import TunnelDefinition
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -369,6 +370,7 @@ class HullSettings(Table):
 
     associations: ValueColumn[tuple[Association, ...]] = values(())
     rulings: ValueColumn[tuple[Ruling, ...]] = values(())
+    tunnels: ValueColumn[tuple[TunnelDefinition, ...]] = values(())
     births: ValueColumn[Births] = values_given()
     failed: ValueColumn[tuple[int, ...]] = values(())
     particulars: ValueColumn[Particulars] = values_given()
@@ -557,6 +559,11 @@ class HullState:
     def rulings(self) -> tuple[Ruling, ...]:
         """Which lines rule where, the statement that was made last first."""
         return self.settings.rulings[0]
+
+    @property
+    def tunnels(self) -> tuple[TunnelDefinition, ...]:
+        """The tunnels that the hull holds, by name."""
+        return self.settings.tunnels[0]
 
     @property
     def features(self) -> tuple[Feature, ...]:

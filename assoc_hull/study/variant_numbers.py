@@ -108,13 +108,15 @@ class ParentNumbers:
 
     @classmethod
     def of(cls, state: HullState) -> ParentNumbers | None:
-        """Prepare a hull; None where its lines are made by more than their points.
+        """Prepare a hull; None where it has tunnels, or lines are made by more than their points.
 
         Raises
         ------
         BadInputError
             It has no surface.
         """
+        if state.tunnels:
+            return None  # the edit looks whether a tunnel leaves the hull
         document = Document(state)
         published = published_program(document)
         if published is None:

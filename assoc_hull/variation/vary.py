@@ -300,6 +300,14 @@ class VariationReport(ShownAsText):
         return "\n".join([*targets, *aimed, *stages, *faired, *self.notes, str(self.edit)])
 
 
+def _without_tunnels(state: HullState, ask: VariationRequest) -> tuple[str, ...]:
+    """Give a note where outputs are reached of a hull that has tunnels, which these do not see."""
+    if not state.tunnels or ask.reach is None:
+        return ()
+    names = ", ".join(each.name for each in state.tunnels)
+    return (f"what was to be reached is of the moulded hull, without its tunnels ({names})",)
+
+
 def measure_parent(state: HullState) -> None:
     """Measure what every variation asks of its parent; copies of the hull know it from then on."""
     measure_all(state)
@@ -347,6 +355,7 @@ def vary_document(
         edit.varied = values_of_variation(ask, was, found.aimed)
         if not any(step.script.varied for step in document.history):
             edit.varied_before = values_before(document)
+        bare = _without_tunnels(edit.state, ask)
         left = left_values(document, ask, now)
         beyond = folds_outside(found.carry.map, room.box)
         along = went_along(levels, edit.state)
@@ -361,7 +370,7 @@ def vary_document(
     notes = (
         *shifted_without_body(parent, found.values), *beside,
         *composed_of(len(carried), ask.layout), *beyond, *along,
-        *also_changed(was, now, found.values), *left, *unfair_lines(fairness),
+        *also_changed(was, now, found.values), *bare, *left, *unfair_lines(fairness),
     )  # fmt: skip
     drivers = [each.applied.drivers for each in carried]
     regions = dict.fromkeys(one for each in carried for one in each.regions)

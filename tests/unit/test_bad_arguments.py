@@ -172,6 +172,9 @@ EDIT: dict[str, Given] = {
         "name": "chine", "points": ["ST 3 x WL 2.5", "ST 4 x WL 2.5", "ST 5 x WL 2.5"],
     },
     "remove_knuckle_line": {"line": LINE},
+    "tunnel": {"name": "thruster", "x": 40.0, "z": 2.5, "radius": 0.5},
+    "set_tunnel": {"name": "thruster", "x": 40.0, "z": 2.5, "radius": 0.5},
+    "remove_tunnel": {"name": "thruster"},
     "set_form": {"definition": "areas", "values": 0.5},
     "reattach": {"line": CURVE},
     "transform": {

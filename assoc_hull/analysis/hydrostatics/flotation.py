@@ -454,10 +454,20 @@ def _depends_on(state: HullState) -> tuple[object, ...]:
 
 
 def body_of(hull: HasState) -> FloatingBody:
-    """Make what can be measured of a hull."""
+    """Make what can be measured of a hull, less the tunnels that it holds."""
     # The one place where hydrostatics takes the integrals of a net.
-    body: FloatingBody = flotation(state_of(hull))
-    return body
+    return _less_tunnels(state_of(hull))
+
+
+def _less_tunnels(state: HullState) -> FloatingBody:
+    body: FloatingBody = flotation(state)
+    if not state.tunnels:
+        return body
+    # A hull without tunnels measures none.
+    from assoc_hull.analysis.hydrostatics.tunnel import kept_tunnels
+    from assoc_hull.analysis.hydrostatics.tunnelled_body import TunnelledBody
+
+    return TunnelledBody(body, kept_tunnels(state))
 
 
 def header_of(hull: HasState, body: FloatingBody, terms: Mapping[str, object]) -> HydrostaticHeader:
@@ -470,6 +480,8 @@ def header_of(hull: HasState, body: FloatingBody, terms: Mapping[str, object]) -
     chosen: dict[str, object] = {
         "kg": None, "keel_thickness": 0.0, "transom": False, "date": None, **terms
     }  # fmt: skip
+    if not isinstance(body, Flotation):
+        chosen["tunnels"] = state.tunnels
     if "fingerprint" not in chosen:
         chosen["fingerprint"] = fingerprint(state)
     return HydrostaticHeader(
@@ -498,8 +510,12 @@ class EvenKeelDisplacement:
     lcb: float
 
 
-def even_keel_displacement(state: HullState, draught: float | None = None) -> EvenKeelDisplacement:
+def even_keel_displacement(
+    state: HullState, draught: float | None = None, *, tunnels: bool = False
+) -> EvenKeelDisplacement:
     """Measure volume and LCB at even keel, at the design draught if `draught` (m) is None.
+
+    `tunnels`: whether those that the hull holds are taken off.
 
     Raises
     ------
@@ -515,6 +531,6 @@ def even_keel_displacement(state: HullState, draught: float | None = None) -> Ev
     """
     level = state.particulars.draught if draught is None else draught
     planes = FloatingPlanes(np.array([level], np.float64), np.zeros(1), np.zeros(1))
-    below = flotation(state).measure(planes)
+    below = (_less_tunnels(state) if tunnels else flotation(state)).measure(planes)
     volume, moment = float(below.volume[0]), float(below.moment_x[0])
     return EvenKeelDisplacement(volume, moment / volume if volume else float("nan"))

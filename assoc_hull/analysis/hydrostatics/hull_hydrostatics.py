@@ -41,6 +41,7 @@ from assoc_hull.analysis.hydrostatics.record import (
     Hydrostatics,
     HydrostaticTable,
 )
+from assoc_hull.analysis.hydrostatics.tunnelled_body import TunnelledBody
 from assoc_hull.arguments import choice, flag, number, numbers
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
@@ -640,7 +641,7 @@ def table_without_doubts(
     if doubts and on_error == "refuse":
         more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
         raise BadInputError(doubts[0] + more, _WHERE, _remedy(body, header, positions))
-    assumed = body.assumed if isinstance(body, Flotation) else ()
+    assumed = body.assumed if isinstance(body, Flotation | TunnelledBody) else ()
     return attrs.evolve(table, notes=(*told, *assumed, *doubts, *_beyond_one(table)))
 
 

@@ -20,8 +20,10 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.hydrostatics.floating_body import Appendage, FloatingPosition, Freeboard
 from assoc_hull.arguments import all_of, checked, flag, not_negative, number, plain, positive, text
 from assoc_hull.display import ShownAsText, html_table
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.model.named_mapping import NamedMapping
+from assoc_hull.model.tunnel_definition import TunnelDefinition
 
 __all__ = [
     "FIELDS",
@@ -353,6 +355,8 @@ class HydrostaticHeader:
         2 where the numbers are those of a ship of two demihulls, each of them this hull.
     separation : float or None, m
         Between their centre planes.
+    tunnels : tuple of TunnelDefinition
+        Of the hull, which are taken off as far as each is immersed.
     """
 
     ship: str
@@ -375,6 +379,14 @@ class HydrostaticHeader:
     )
     demihulls: int = 1
     separation: float | None = None
+    tunnels: tuple[TunnelDefinition, ...] = ()
+
+    def __attrs_post_init__(self) -> None:
+        held = {each.name for each in self.tunnels}
+        twice = [each.name for each in self.appendages if each.name in held]
+        if twice:
+            what = f"{twice[0]!r} is a tunnel that the hull holds: it is taken off already"
+            raise BadInputError(what, _WHERE, "leave it out of the appendages")
 
     @property
     def water(self) -> str:
@@ -416,13 +428,19 @@ class HydrostaticHeader:
         yield "wetted surface", "with the transom" if self.transom else "without the transom"
         yield "deck", self.deck
         yield from self._added()
+        for tunnel in self.tunnels:
+            yield (
+                "tunnel",
+                f"{tunnel.name}: {2.0 * tunnel.radius:g} m across at x {tunnel.x:g}, "
+                f"z {tunnel.z:g} m, taken off as far as it is immersed",
+            )
         if self.date is not None:
             yield "date", self.date
         yield "fingerprint", self.fingerprint
 
     def _added(self) -> Iterator[tuple[str, str]]:
         if not self.appendages:
-            yield "appendages", "none: bare hull"
+            yield "appendages", "none" if self.tunnels else "none: bare hull"
         for each in self.appendages:
             x, y, z = each.centroid
             yield (

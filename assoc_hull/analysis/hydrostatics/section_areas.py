@@ -16,6 +16,7 @@ from assoc_hull.analysis.hydrostatics.floating_body import (
     require_afloat,
 )
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, body_of, flotation
+from assoc_hull.analysis.hydrostatics.tunnelled_body import TunnelledBody
 from assoc_hull.analysis.net.curve_net import station_planes
 from assoc_hull.analysis.net.surface_layout import areas_between, strip_extents
 from assoc_hull.arguments import integer
@@ -382,4 +383,9 @@ def bonjean(hull: HasState, levels: int = 41) -> Bonjean:
     low, high = body.limits.mean_draughts(level, hull.state.particulars.length)
     z = np.linspace(float(low[0]), float(high[0]), count)
     planes = FloatingPlanes(z.copy(), np.zeros(count), np.zeros(count))
-    return Bonjean(z, *body.stations_and_moments(planes))
+    stations, moment = body.stations_and_moments(planes)
+    whole = body_of(hull)
+    if isinstance(whole, TunnelledBody):
+        area, turned = whole.holes(stations.x, planes)
+        stations, moment = attrs.evolve(stations, area=stations.area - area), moment - turned
+    return Bonjean(z, stations, moment)

@@ -9,20 +9,29 @@ where the half-breadth is a polynomial of low degree.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from types import MappingProxyType
 
 import attrs
 import numpy as np
 
 from assoc_hull.analysis.hydrostatics.floating_body import Appendage
+from assoc_hull.analysis.hydrostatics.immersed_tunnel import (
+    ImmersedTunnel,
+    MouthShape,
+    disc_places,
+)
 from assoc_hull.arguments import number, positive, text
 from assoc_hull.errors import BadInputError, NoMeetingError
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.quadrature import gauss
-from assoc_hull.model.half_breadth import half_breadths
+from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.graph.derived import Objects
+from assoc_hull.model.half_breadth import half_breadth_rows, half_breadths
 from assoc_hull.model.tables import HasState, HullState, state_of
+from assoc_hull.model.tunnel_definition import TunnelDefinition
 
-__all__ = ["Tunnel", "measure_tunnel"]
+__all__ = ["Tunnel", "kept_mouths", "kept_tunnels", "measure_tunnel", "mouth_of"]
 
 _COUNT, _FINER = 16, 24
 """Places of the rule along each way of the disc; the finer one tells how far off the other is."""
@@ -61,6 +70,8 @@ class Tunnel:
         point upward; that to starboard is its mirror image.
     sections : mapping of str to float, m2
         By name, the stations that it cuts, and what it takes of their areas, both sides.
+    shape : MouthShape
+        The shell around the mouth, of which `hydrostatics` takes what is immersed.
     """
 
     name: str
@@ -74,9 +85,15 @@ class Tunnel:
     opening: float
     mouth: FloatArray
     sections: Mapping[str, float]
+    shape: MouthShape = attrs.field(repr=False)
 
     def __attrs_post_init__(self) -> None:
         freeze(self.mouth)
+
+    @cached_property
+    def immersed(self) -> ImmersedTunnel:
+        """The tunnel as planes cut it."""
+        return ImmersedTunnel(self.shape)
 
     @property
     def appendage(self) -> Appendage:
@@ -155,75 +172,175 @@ def measure_tunnel(hull: HasState, name: str, x: float, z: float, radius: float)
     state = state_of(hull, _WHERE)
     text(name, "name", _WHERE)
     x, z = number(x, "x", _WHERE), number(z, "z", _WHERE)
-    radius = positive(radius, "radius", _WHERE)
-    mouth = _mouth(state, x, z, radius, name)
-    coarse, fine = (_disc(state, x, z, radius, count) for count in (_COUNT, _FINER))
-    volume = float(fine[0])
-    wall = 2.0 * radius * (2.0 * np.pi / _AROUND) * float(mouth[:, 1].sum())
-    centroid = (float(fine[1]) / volume, 0.0, float(fine[2]) / volume)
-    sections = MappingProxyType(_sections(state, x, z, radius))
-    return Tunnel(
-        name, x, z, radius, volume, abs(volume - float(coarse[0])), centroid, wall,
-        float(fine[3]), mouth, sections,
+    return _measured(state, name, x, z, positive(radius, "radius", _WHERE))
+
+
+def kept_tunnels(state: HullState) -> tuple[Tunnel, ...]:
+    """Measure the tunnels that a hull holds, by name; anew only where a line has changed.
+
+    Raises
+    ------
+    BadInputError
+        One leaves the hull: no edit makes such a hull.
+    """
+    if not state.tunnels:
+        return ()
+
+    def measure() -> tuple[Tunnel, ...]:
+        return tuple(_measured(state, *attrs.astuple(each)) for each in state.tunnels)
+
+    return state.derived(("tunnels",), _depends_on(state), measure, most=2)
+
+
+def kept_mouths(state: HullState) -> tuple[FloatArray | BadInputError, ...]:
+    """Give the mouth to port of each tunnel that a hull holds; an error of one that leaves it."""
+
+    def measure() -> tuple[FloatArray | BadInputError, ...]:
+        return tuple(_mouth_or_error(state, each) for each in state.tunnels)
+
+    return state.derived(("tunnel mouths",), _depends_on(state), measure, most=2)
+
+
+def _mouth_or_error(state: HullState, each: TunnelDefinition) -> FloatArray | BadInputError:
+    try:
+        return mouth_of(state, *attrs.astuple(each))
+    except BadInputError as error:
+        return error
+
+
+def _depends_on(state: HullState) -> tuple[object, ...]:
+    """Give what the shell around tunnels depends on."""
+    splines = [state.spline(curve) for curve in state.live("curves").tolist()]
+    return (
+        Objects(splines), state.tunnels, state.tolerances, state.curves.line, state.lines.boundary,
+        state.lines.group, state.lines.offset, tuple(state.lines.name.data),
     )  # fmt: skip
 
 
-def _mouth(state: HullState, x: float, z: float, radius: float, name: str) -> FloatArray:
-    """Give the mouth to port, (n, 3), m; refuse where there is no hull."""
+def _measured(state: HullState, name: str, x: float, z: float, radius: float) -> Tunnel:
+    mouth = mouth_of(state, name, x, z, radius)
+    shape = _shape(state, x, z, radius, _FINER)
+    coarse, fine = (_disc(each) for each in (_shape(state, x, z, radius, _COUNT), shape))
+    volume = float(fine[0])
+    wall = 2.0 * radius * (2.0 * np.pi / _AROUND) * float(mouth[:, 1].sum())
+    centroid = (float(fine[1]) / volume, 0.0, float(fine[2]) / volume)
+    sections = MappingProxyType(_sections(state, shape))
+    return Tunnel(
+        name, x, z, radius, volume, abs(volume - float(coarse[0])), centroid, wall,
+        float(fine[3]), mouth, sections, shape,
+    )  # fmt: skip
+
+
+def mouth_of(state: HullState, name: str, x: float, z: float, radius: float) -> FloatArray:
+    """Give the mouth to port of a cylinder, (64, 3), m; see `Tunnel.mouth`.
+
+    Raises
+    ------
+    BadInputError
+        It leaves the hull, with the place.
+    """
     angle = np.linspace(0.0, 2.0 * np.pi, _AROUND, endpoint=False)
-    found = np.column_stack(
+    rim = np.column_stack(
         [x + radius * np.cos(angle), np.zeros(_AROUND), z + radius * np.sin(angle)]
     )
-    for here in found:
-        try:
-            here[1] = half_breadths(state, here[:1], float(here[2]))[0][0]
-        except NoMeetingError:
-            here[1] = 0.0
-        if here[1] <= 0.0:
-            what = f"{name!r} leaves the hull at x {here[0]:.4g}, z {here[2]:.4g} m"
-            remedy = "give a smaller radius, or an axis farther inside the hull"
-            raise BadInputError(what, _WHERE, remedy)
-    return found
+    # Level by level, from the foremost place upward: of one level the place ahead and that abaft.
+    rows = np.arange(-_AROUND // 4, _AROUND // 4 + 1)
+    pairs = np.stack([rows % _AROUND, (_AROUND // 2 - rows) % _AROUND], axis=1)
+    try:
+        breadth, _ = half_breadth_rows(state, rim[pairs, 0], rim[pairs[:, 0], 2])
+    except NoMeetingError:
+        breadth = np.array([[_breadth_or_none(state, rim[i]) for i in pair] for pair in pairs])
+    rim[pairs, 1] = breadth
+    least, most = _heights(state, rim[:, 0])
+    out = rim[(rim[:, 1] <= 0.0) | (rim[:, 2] <= least) | (rim[:, 2] >= most)]
+    if len(out):
+        # Told is the middle of the arc that is outside: there it is farthest out, or nearly.
+        away = np.abs(out - out.mean(axis=0)).sum(axis=1)
+        here = out[int(away.argmin())]
+        at = f"{name!r} leaves the hull at x {here[0]:.4g}, z {here[2]:.4g} m"
+        what = at + _how_far_out(state, float(here[0]), float(here[2]))
+        remedy = "give a smaller radius, or an axis farther inside the hull"
+        raise BadInputError(what, _WHERE, remedy)
+    return rim
 
 
-def _rule(count: int) -> tuple[FloatArray, FloatArray]:
-    """Give places and weights of Gauss's rule from -1 to 1, (n,) each."""
-    node, weight = gauss(count)
-    return 2.0 * node - 1.0, 2.0 * weight
+def _how_far_out(state: HullState, x: float, z: float) -> str:
+    """Say how far a place of the centre plane lies below, above or beyond a hull, as a clause."""
+    xyz = state.rows.xyz[state.live("rows")]
+    low, high = float(xyz[:, 0].min()), float(xyz[:, 0].max())
+    if not low < x < high:
+        side, end = ("abaft", low) if x <= low else ("ahead of", high)
+        return f", {abs(x - end):.4g} m {side} its end"
+    least, most = (float(each[0]) for each in _heights(state, np.array([x])))
+    if z >= most:
+        return f", {z - most:.4g} m above its deck edge"
+    if z <= least:
+        return f", {least - z:.4g} m below its profile"
+    return ", beyond its profile"
 
 
-def _disc(state: HullState, x: float, z: float, radius: float, count: int) -> FloatArray:
+def _heights(state: HullState, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give from which to which height boundary curves reach at x (n,), m; nan where there are none.
+
+    A waterline that is cut above a deck with sheer runs on between fore and aft body, where there
+    is no hull.
+    """
+    curves = state.live("curves")
+    bounds = curves[state.lines.boundary[state.curves.line[curves]] >= 0]
+    least, most = np.full(len(x), np.nan), np.full(len(x), np.nan)
+    if len(bounds):
+        planes, which = np.unique(x, return_inverse=True)
+        batch = SplineBatch.join([state.spline(each) for each in bounds.tolist()])
+        met = intersect_planes(batch, np.eye(3)[0], planes)
+        low, high = np.full(len(planes), np.nan), np.full(len(planes), np.nan)
+        np.fmin.at(low, met.plane, met.xyz[:, 2])
+        np.fmax.at(high, met.plane, met.xyz[:, 2])
+        least, most = low[which], high[which]
+    return least, most
+
+
+def _breadth_or_none(state: HullState, place: FloatArray) -> float:
+    """Give the half-breadth at a place, m; zero where the hull does not come."""
+    try:
+        return float(half_breadths(state, place[:1], float(place[2]))[0][0])
+    except NoMeetingError:
+        return 0.0
+
+
+def _shape(state: HullState, x: float, z: float, radius: float, count: int) -> MouthShape:
+    """Take the shell around the mouth, on as many chords and places of each."""
+    at, level = disc_places(x, z, radius, count)
+    breadth, slope = half_breadth_rows(state, at, level)
+    step = _STEP * radius
+    above, below = (half_breadth_rows(state, at, level + way)[0] for way in (step, -step))
+    steep = (above - below) / (2.0 * step)
+    return MouthShape(x, z, radius, breadth, np.sqrt(1.0 + slope * slope + steep * steep))
+
+
+def _disc(shape: MouthShape) -> FloatArray:
     """Integrate over the disc: volume, its moments in x and z, m3, m4, and opening, m2."""
-    node, weight = _rule(count)
-    turn = 0.5 * np.pi * (1.0 + node)
-    total = np.zeros(4)
-    for angle, share in zip(turn.tolist(), (0.5 * np.pi * weight).tolist(), strict=True):
-        half, level = radius * np.sin(angle), z + radius * np.cos(angle)
-        at = x + half * node
-        breadth, slope = half_breadths(state, at, level)
-        step = _STEP * radius
-        above, below = (half_breadths(state, at, level + way)[0] for way in (step, -step))
-        steep = (above - below) / (2.0 * step)
-        strip = 2.0 * share * half * half * weight
-        total += [
-            float((strip * breadth).sum()),
-            float((strip * breadth * at).sum()),
-            float((strip * breadth).sum()) * level,
-            float((strip * np.sqrt(1.0 + slope * slope + steep * steep)).sum()),
-        ]
-    return total
+    count = len(shape.breadth)
+    at, level = disc_places(shape.x, shape.z, shape.radius, count)
+    node, weight = gauss(count)
+    half = shape.radius * np.sin(np.pi * node)[:, None]
+    # From one side to the other in turn and along the chord, port and starboard.
+    strip = 2.0 * (np.pi * weight)[:, None] * half * half * (2.0 * weight)
+    parts = shape.breadth, shape.breadth * at, shape.breadth * level[:, None], shape.element
+    return np.array([float((strip * each).sum()) for each in parts])
 
 
-def _sections(state: HullState, x: float, z: float, radius: float) -> dict[str, float]:
+def _sections(state: HullState, shape: MouthShape) -> dict[str, float]:
     """Give what it takes of the areas of the stations that it cuts, m2, both sides, along x."""
     lines, found = state.lines, list[tuple[float, str, float]]()
-    node, weight = _rule(_FINER)
+    node, weight = gauss(_FINER)
     for line in state.live("lines").tolist():
         upright = state.family(line).name == "sections" and lines.planar[line]
         at = float(lines.offset[line])
-        if not upright or lines.normal[line, 0] != 1.0 or abs(at - x) >= radius:
+        if not upright or lines.normal[line, 0] != 1.0 or abs(at - shape.x) >= shape.radius:
             continue
-        half = float(np.sqrt(radius**2 - (at - x) ** 2))
-        breadth = [half_breadths(state, np.array([at]), z + half * each)[0][0] for each in node]
-        found.append((at, str(lines.name[line]), 2.0 * half * float((weight * breadth).sum())))
+        half = float(np.sqrt(shape.radius**2 - (at - shape.x) ** 2))
+        level = shape.z + half * (2.0 * node - 1.0)
+        breadth, _ = half_breadth_rows(state, np.full((len(level), 1), at), level)
+        area = 4.0 * half * float((weight * breadth[:, 0]).sum())
+        found.append((at, str(lines.name[line]), area))
     return {name: area for _, name, area in sorted(found)}

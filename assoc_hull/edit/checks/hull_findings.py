@@ -16,6 +16,7 @@ from assoc_hull.edit.checks.finding import Finding, row_finding
 from assoc_hull.edit.checks.link_findings import find_associations, find_links, find_roles
 from assoc_hull.edit.checks.shape_findings import bounded, find_sense, find_shape
 from assoc_hull.edit.checks.table_findings import find_tables
+from assoc_hull.edit.checks.tunnel_findings import find_lost_tunnels
 from assoc_hull.errors import RingError
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.feature_geometry import line_numbers, places_off, rounding_of
@@ -221,5 +222,6 @@ _LOOKS: tuple[Callable[[HullState, AddressBook], Iterator[Finding]], ...] = (
     find_associations,
     find_off_features,
     find_detached,
+    find_lost_tunnels,
     _rings,
 )

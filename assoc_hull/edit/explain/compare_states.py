@@ -77,8 +77,8 @@ class Comparison(ShownAsText):
         Lines that differ, those that moved farthest first.
     numbers : dict of str to (float or None, float or None)
         Principal numbers in both states, those that differ: dimensions (m), ``volume`` (m3)
-        and ``lcb`` (m from AP, + forward) at the design draught, counts of lines and points.
-        None where there are not sections enough.
+        and ``lcb`` (m from AP, + forward) at the design draught, less tunnels, counts of lines,
+        tunnels and points. None where there are not sections enough.
     names : (str, str)
         Name of the ship in both.
     decks : (str, str)
@@ -154,11 +154,11 @@ def _numbers(state: HullState) -> dict[str, float | None]:
         name: getattr(ship, name) for name in ("length", "breadth", "depth", "draught")
     }
     try:
-        measured = even_keel_displacement(state)
+        measured = even_keel_displacement(state, tunnels=True)
         found |= {"volume": measured.volume, "lcb": measured.lcb}
     except BadInputError:
         found |= {"volume": None, "lcb": None}
-    found["lines"] = float(len(state.live("lines")))
+    found["lines"], found["tunnels"] = float(len(state.live("lines"))), float(len(state.tunnels))
     for each in Sort:
         found[f"{each.name.lower()} points"] = float((sort == each).sum())
     return found

@@ -360,6 +360,6 @@ def _changed_shapes(state: HullState, step: Step | None) -> Shapes:
 
 def _displacement(state: HullState) -> EvenKeelDisplacement | None:
     try:
-        return even_keel_displacement(state)
+        return even_keel_displacement(state, tunnels=True)
     except BadInputError:
         return None

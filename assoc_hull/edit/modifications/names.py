@@ -112,19 +112,21 @@ def _rename_point(edit: Transaction, row: int, name: str) -> None:
 
 
 def taken_names(state: HullState) -> set[str]:
-    """Give all names and keys of groups and lines, and the labels of points."""
+    """Give all names and keys of groups and lines, labels of points and names of tunnels."""
     lines = {state.lines.name[line] for line in state.live("lines").tolist()}
     return (lines | _fixed(state) | set(state.rows.label.data.given.values())) - {""}
 
 
 def _fixed(state: HullState) -> set[str]:
     """Give the names that no object can lay down."""
-    return set(state.groups.name.data) | set(state.lines.key.data)
+    tunnels = {each.name for each in state.tunnels}
+    return set(state.groups.name.data) | set(state.lines.key.data) | tunnels
 
 
 def _plain_groups(state: HullState) -> set[str]:
-    """Give the names of groups as they are looked up: case and spaces do not matter."""
-    return {plain_name(state.groups.name[each]) for each in state.live("groups").tolist()}
+    """Give names of groups and tunnels as they are looked up: case and spaces do not matter."""
+    groups = {plain_name(state.groups.name[each]) for each in state.live("groups").tolist()}
+    return groups | {plain_name(each.name) for each in state.tunnels}
 
 
 def _labels(state: HullState, but: int) -> set[str]:

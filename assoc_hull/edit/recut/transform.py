@@ -17,6 +17,7 @@ from assoc_hull.edit.carried_net import CarriedNet
 from assoc_hull.edit.crossings.settle_crossings import make_latent
 from assoc_hull.edit.mapped_features import carry_features
 from assoc_hull.edit.mapped_planes import TransformedPlanes, carry_planes
+from assoc_hull.edit.mapped_tunnels import carry_tunnels
 from assoc_hull.edit.recut.carried_points import (
     DefiningPoints,
     TransformationState,
@@ -128,6 +129,7 @@ def transform(
     size = state.particulars
     if particulars is not None:
         edit.journal.set(state.settings.particulars, [0], [particulars])
+    went = carry_tunnels(state, edit.journal, space)
     if not _anything(state, work):
         _tell(edit, work, 0, size)
         return 0
@@ -149,7 +151,7 @@ def transform(
     take_out_lines(edit, work, may_go=lines_may_go)
     _publish(edit, work, turned)
     _tell(edit, work, added, size)
-    edit.pending.notes += kept
+    edit.pending.notes += kept + went
     return added
 
 

@@ -246,7 +246,11 @@ def export_hull(
         what = f"the form {name} has no scale on paper"
         raise BadInputError(what, "in export", "leave the scale out")
     book.paper, book.accept = scale, accept
-    write_whole(path, chosen.write(state, book))
+    written = chosen.write(state, book)
+    if state.tunnels and name != "hull":
+        names = ", ".join(each.name for each in state.tunnels)
+        book.leave_out("tunnels", "the hull", f"its tunnels ({names})", len(state.tunnels))
+    write_whole(path, written)
     report = book.report(os.fspath(path), name)
     return attrs.evolve(report, rounding=0.0) if chosen.decimals == _EXACT else report
 

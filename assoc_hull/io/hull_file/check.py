@@ -172,6 +172,9 @@ def _settings(state: HullState) -> Iterator[str]:
     for each in state.rulings:
         if not {each.a, each.b} <= keys:
             yield f"{each.a!r} and {each.b!r} rule by a box, and are no groups or lines"
+    names = [each.name for each in state.tunnels]
+    if not all(names) or len({*names, *groups}) < len(names) + len(groups):
+        yield "a tunnel has no name, or one that something else has"
     if not all(count > 0 for count in state.births.values()):
         yield "a pair of lines bore no crossing"
     if not set(state.failed) <= set(state.live("curves").tolist()):

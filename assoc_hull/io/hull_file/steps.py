@@ -31,6 +31,7 @@ from assoc_hull.model.change import CrossingPositions, TableChange, positions_ag
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.tables import Association, Ends, HullState, Particulars, Ruling
+from assoc_hull.model.tunnel_definition import TunnelDefinition
 
 __all__ = [
     "body_of",
@@ -344,6 +345,10 @@ _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
     "settings.rulings": (
         lambda rulings: [list(attrs.astuple(each)) for each in rulings],
         lambda said: tuple(Ruling(a, b, w, tuple(low), tuple(high)) for a, b, w, low, high in said),
+    ),
+    "settings.tunnels": (
+        lambda tunnels: [list(attrs.astuple(each)) for each in tunnels],
+        lambda said: tuple(TunnelDefinition(*each) for each in said),
     ),
 }
 """By column: to what JSON can say, and back. All other columns of objects hold texts."""

@@ -31,6 +31,7 @@ from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.kinds import State
 from assoc_hull.model.tables import Association, Ends, HullState, Particulars, Ruling
+from assoc_hull.model.tunnel_definition import TunnelDefinition, tunnels_in_order
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -268,7 +269,7 @@ def write_state(
 
 
 def write_settings(database: sqlite3.Connection, state: HullState) -> None:
-    """Write particulars, failures, associations and rulings."""
+    """Write particulars, failures, associations, rulings and tunnels."""
     ship = state.particulars
     database.execute(
         "UPDATE hull SET name = ?, length = ?, breadth = ?, depth = ?, draught = ?, deck = ?, "
@@ -285,6 +286,12 @@ def write_settings(database: sqlite3.Connection, state: HullState) -> None:
         for place, each in enumerate(state.rulings)
     ]
     database.executemany("INSERT INTO rulings VALUES (?, ?, ?, ?, ?)", ruled)
+    database.execute("DELETE FROM tunnels")
+    cylinders = [
+        (place, each.name, *(_real_blob(value) for value in (each.x, each.z, each.radius)))
+        for place, each in enumerate(state.tunnels)
+    ]
+    database.executemany("INSERT INTO tunnels VALUES (?, ?, ?, ?, ?)", cylinders)
 
 
 def write_births(database: sqlite3.Connection, counts: Mapping[Pair, int]) -> None:
@@ -416,6 +423,11 @@ def read_state(database: sqlite3.Connection) -> HullState:
     state.settings.rulings.data[0] = tuple(
         Ruling(a, b, bool(way), *(tuple(corner) for corner in parse_json(box)))
         for a, b, way, box in ruled
+    )
+    cylinders = read_rows(database, "SELECT name, x, z, radius FROM tunnels ORDER BY place")
+    state.settings.tunnels.data[0] = tunnels_in_order(
+        TunnelDefinition(name, *(float(np.frombuffer(each, "<f8")[0]) for each in numbers))
+        for name, *numbers in cylinders
     )
     births = read_rows(database, "SELECT a, b, count FROM births ORDER BY a, b")
     state.settings.births.data[0] = Births.of({(a, b): int(count) for a, b, count in births})

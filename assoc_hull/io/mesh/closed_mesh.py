@@ -85,7 +85,7 @@ class FiledMesh:
         face, kept = found.face[whole], order[whole]
         used, number = np.unique(face, return_inverse=True)
         xyz, face = found.xyz[used], number.reshape(-1, 3)
-        report = examine_mesh(xyz / scale, face)
+        report = examine_mesh(xyz / scale, face, tunnels=mesh.report.tunnels)
         if report.off_centre if mesh.half else not report.sound:
             require_closed(report, "a file", mesh.half)
         return cls(xyz, face, mesh.group[kept], mesh.names, title)

@@ -40,6 +40,7 @@ from assoc_hull.model.tables import (
     Rows,
     Ruling,
 )
+from assoc_hull.model.tunnel_definition import TunnelDefinition, tunnels_in_order
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -591,6 +592,7 @@ def make_tables(definition: Record) -> HullState:
     _check_births(state)
     put_meetings(state, journal, parts[1], keys.find)
     _put_rulings(state, journal, definition.get("rulings", ()), keys)
+    _put_tunnels(state, journal, definition.get("tunnels", ()))
     put_features(state, journal, definition.get("features", ()), keys)
     put_forms(state, journal, definition, keys)
     _retire(state, journal, gone)
@@ -655,6 +657,15 @@ def _put_rulings(
             for each in rulings
         )
         journal.set(state.settings.rulings, [0], [found])
+
+
+def _put_tunnels(state: HullState, journal: Journal, tunnels: Sequence[Record]) -> None:
+    found = tunnels_in_order(TunnelDefinition(**each) for each in tunnels)
+    for one, next_ in pairwise(found):
+        if one.name == next_.name:
+            raise contradiction(f"the tunnel {one.name!r} stands there twice", "in the tunnels")
+    if found:
+        journal.set(state.settings.tunnels, [0], [found])
 
 
 def _put_lines(

@@ -40,6 +40,7 @@ from assoc_hull.model.definition.records import (
     generated_columns,
     plain_fields,
     ruling_records,
+    tunnel_records,
 )
 from assoc_hull.model.tables import HullState
 
@@ -99,6 +100,7 @@ def _settings(state: HullState, order: CanonicalOrder) -> list[object]:
     members = [state.groups.members[i] for i in order.groups.tolist()]
     found = [names, association_records(state), birth_records(state), retired_keys(state)]
     found += [ruling_records(state)] if state.rulings else []
+    found += [{"tunnels": tunnel_records(state)}] if state.tunnels else []
     return [*found, *([{"members": members}] if any(members) else ())]
 
 

@@ -37,6 +37,7 @@ from assoc_hull.model.definition.records import (
     generated_records,
     plain_fields,
     ruling_records,
+    tunnel_records,
 )
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import CurveIntersections, HullState
@@ -326,6 +327,7 @@ class HashTree:
             retired_keys(state), list(definition_records(state)), list(generated_records(state)),
             [_named(self.state.groups.name.data, group) for group in self._groups],
             *([ruling_records(state)] if state.rulings else ()),
+            *([{"tunnels": tunnel_records(state)}] if state.tunnels else ()),
         ]  # fmt: skip
         return _hash(told, np.array(reals, np.float64))
 

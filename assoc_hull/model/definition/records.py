@@ -44,6 +44,7 @@ __all__ = [
     "generated_columns",
     "generated_records",
     "published",
+    "tunnel_records",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -127,9 +128,9 @@ def definition(state: HullState) -> dict[str, object]:
         ``groups``, ``associations``, ``lines``, ``curves``, ``points``, ``births`` (line,
         line, how many crossings the pair ever had), ``retired`` (keys that must not come
         back) and, of a hull that has any, ``features``, ``rulings`` (which lines rule where),
-        ``definitions`` (by form parameters) and ``generated`` (curves that come from these).
-        What has its default is left out: an open deck, notes, labels,
-        free ends, zero directions, smooth passage, overrides, zero signs.
+        ``tunnels`` (athwartships), ``definitions`` (by form parameters) and ``generated``
+        (curves that come from these). What has its default is left out: an open deck, notes,
+        labels, free ends, zero directions, smooth passage, overrides, zero signs.
         ``meets`` of a curve lists, per associated line and along the curve, the sign of
         each intersection and the crossing it is, or None. ``value`` of a point (x, y, z; m)
         stands only where nothing else gives it; a ``riding`` point has ``anchors``,
@@ -140,6 +141,7 @@ def definition(state: HullState) -> dict[str, object]:
     more = {
         "features": list(_feature_records(state)),
         "rulings": ruling_records(state),
+        "tunnels": tunnel_records(state),
         "definitions": list(definition_records(state)),
         "generated": list(generated_records(state)),
     }
@@ -186,6 +188,11 @@ def ruling_records(state: HullState) -> list[Record]:
         {**attrs.asdict(each), "low": list(each.low), "high": list(each.high)}
         for each in state.rulings
     ]
+
+
+def tunnel_records(state: HullState) -> list[Record]:
+    """Give each tunnel as plain values, by name."""
+    return [attrs.asdict(each) for each in state.tunnels]
 
 
 def birth_records(state: HullState) -> list[list[object]]:

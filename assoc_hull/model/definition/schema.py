@@ -153,6 +153,16 @@ _RULING = record(
 )
 
 
+_TUNNEL = record(
+    {
+        "name": NAME,
+        "x": described(REAL, "of its axis, from AP, m"),
+        "z": described(REAL, "of its axis, from the base line, m"),
+        "radius": described(POSITIVE, "of its inside, m"),
+    }
+)
+
+
 _FORM = record(
     {
         "use": described(NAME, "what is taken from it; each use stands once"),
@@ -224,6 +234,7 @@ DEFINITION = record(
             list_of(_FEATURE), "circles, arcs, flats and so on; none if not told"
         ),
         "rulings": described(list_of(_RULING), "which lines rule where; none if not told"),
+        "tunnels": described(list_of(_TUNNEL), "through the hull athwartships; none if not told"),
         "definitions": described(list_of(_FORM), "curves of form parameters; none if not told"),
         "generated": described(list_of(_MADE), "curves that come from these; none if not told"),
     },

@@ -22,6 +22,7 @@ from assoc_hull.model.kinds import FAMILIES, BoundaryKind
 from assoc_hull.model.line_source import LineSource, line_curve_data
 from assoc_hull.model.named_mapping import NamedMapping
 from assoc_hull.model.tables import HasState, HullState, Particulars, state_of
+from assoc_hull.plot.lines_plan.tunnel_mouths import PlotMouth, mouths_of
 from assoc_hull.plot.sheet.paper import HEAVY, LINE, TINT, Pen
 
 __all__ = [
@@ -159,12 +160,15 @@ class Drawing:
         Where they cross.
     window : (float, float) or None, m
         The x between which its lines are cut off; None where they are whole.
+    mouths : tuple of PlotMouth
+        Of its tunnels.
     """
 
     particulars: Particulars
     lines: tuple[PlotLine, ...]
     crossings: PlotCrossings
     window: tuple[float, float] | None = None
+    mouths: tuple[PlotMouth, ...] = ()
 
     def of(self, family: str) -> tuple[PlotLine, ...]:
         """Give the lines of a family."""
@@ -226,7 +230,8 @@ def drawing(hull: Drawable) -> Drawing:
     book = AddressBook(state)
     lines = [_drawn(state, book, line) for line in state.live("lines").tolist()]
     lines.sort(key=lambda line: (FAMILIES[line.family].rank, line.offset, line.name))
-    return Drawing(state.particulars, tuple(lines), _crossings(state, book))
+    crossings, mouths = _crossings(state, book), mouths_of(state)
+    return Drawing(state.particulars, tuple(lines), crossings, mouths=mouths)
 
 
 def _crossings(state: HullState, book: AddressBook) -> PlotCrossings:

@@ -15,6 +15,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.lines_plan.batten_heat import BattenHeat
 from assoc_hull.plot.lines_plan.drawing import Drawing, PlotLine, pen_of
+from assoc_hull.plot.lines_plan.tunnel_mouths import outside_mouths
 from assoc_hull.plot.lines_plan.zoom_window import clipped
 from assoc_hull.plot.sheet.labels import LabelledLine, Side, label_above, label_lines, label_row
 from assoc_hull.plot.sheet.paper import AXIS, GRID, HEAVY, MARGIN, WATER, Paper, Pen
@@ -341,6 +342,9 @@ class Grid:
 _NEAR = 1e-6
 """Planes within this distance (m) are the same."""
 
+_MOUTH = Pen(0.22, over=2.6)
+"""Of the mouth of a tunnel."""
+
 
 @attrs.frozen(eq=False)
 class _Top:
@@ -389,12 +393,38 @@ class Views:
         return 0.5 * self.drawing.particulars.length
 
     def draw(self, view: View, line: PlotLine, pen: Pen | None = None) -> list[FloatArray]:
-        """Draw a line in a view; give its polylines on the sheet."""
+        """Draw a line in a view; give its polylines on the sheet, whole where a mouth cuts them."""
         used = pen or pen_of(line, line.name in self.tinted)
-        found = [view.on_paper(points) for points in line.polylines]
-        for points in found:
-            self.sheet.line(points, used, f"{view.name}/{line.family}/{line.name}")
-        return found
+        name = f"{view.name}/{line.family}/{line.name}"
+        for points in line.polylines:
+            self._on_shell(view, line, points, used, name)
+        return [view.on_paper(points) for points in line.polylines]
+
+    def _on_shell(
+        self, view: View, line: PlotLine, points: FloatArray, pen: Pen, name: str
+    ) -> None:
+        """Draw a polyline but for what lies in a mouth; the profile is no part of the shell."""
+        mouths = () if line is self.drawing.profile else self.drawing.mouths
+        for part in outside_mouths(points, mouths):
+            self.sheet.line(view.on_paper(part), pen, name)
+
+    def mouths(self, view: View) -> None:
+        """Draw the mouths of tunnels; in the profile they have their names."""
+        for each in self.drawing.mouths:
+            half = view
+            if view.name == "body":
+                half = view if each.x >= self.middle else view.mirrored()
+            lines = [each.points]
+            if self.drawing.window is not None:
+                lines = [part for part, _ in clipped(each.points, *self.drawing.window)]
+            for points in lines:
+                self.sheet.line(half.on_paper(points), _MOUTH, f"{view.name}/tunnels/{each.name}")
+            if view.name == "profile" and self.drawing.shows(each.x):
+                over = view.up(each.z + each.radius) + 0.8 * self.sheet.paper.factor
+                self.sheet.text(
+                    (view.across(each.x), over), each.name, up="bottom", halo=True,
+                    name=f"label/profile/tunnels/{each.name}",
+                )  # fmt: skip
 
     def profile(self, view: View) -> None:
         """Draw the sheer plan: buttocks and boundaries over stations and waterlines."""
@@ -419,6 +449,7 @@ class Views:
             upright=True, heading="BTK", name="label/profile/buttocks",
         )  # fmt: skip
         self.grid.levels(view, self.low[0], self.high[0])
+        self.mouths(view)
 
     def _cut_off(self, view: View, end: FloatArray) -> bool:
         """Whether the window of the drawing ends a line there, mm on paper."""
@@ -452,6 +483,7 @@ class Views:
         top = view.up(self.high[1]) + 3.5 * self.sheet.paper.factor
         label_above(self.sheet, lettered, wanted, top, "label/half-breadth/above")
         self.grid.lanes(view, self.low[0], self.high[0])
+        self.mouths(view)
 
     def _along_grid(self, line: PlotLine) -> bool:
         """Whether a line is straight along the ship when seen from above."""
@@ -461,11 +493,16 @@ class Views:
         """Draw diagonals in true breadth along their planes, mirrored below."""
         for line in self.drawing.of("diagonals"):
             start = line.offset / line.normal[2] if line.normal[2] else 0.0
-            for points in line.polylines:
+            pen = pen_of(line, line.name in self.tinted)
+            name = f"{view.name}/{line.family}/{line.name}"
+            whole = (
+                part
+                for each in line.polylines
+                for part in outside_mouths(each, self.drawing.mouths)
+            )
+            for points in whole:
                 true = points.copy()
                 true[:, 1] = -np.hypot(points[:, 1], points[:, 2] - start)
-                pen = pen_of(line, line.name in self.tinted)
-                name = f"{view.name}/{line.family}/{line.name}"
                 self.sheet.line(view.on_paper(true), pen, name)
 
     def body(self, view: View) -> None:
@@ -488,6 +525,7 @@ class Views:
             heading="ST", name="label/body/top",
         )  # fmt: skip
         self.grid.body(view)
+        self.mouths(view)
 
     def heat(self, layout: ViewLayout, colours: BattenHeat) -> None:
         """Colour the lines of all three views."""
@@ -527,7 +565,7 @@ class Views:
         edges = (self.middle, np.inf) if view.sign > 0.0 else (-np.inf, self.middle)
         for points in line.polylines:
             for part, _ in clipped(points, *edges):
-                self.sheet.line(view.on_paper(part), pen, f"body/boundary/{line.name}")
+                self._on_shell(view, line, part, pen, f"body/boundary/{line.name}")
 
 
 def body_halves(

@@ -23,9 +23,11 @@ from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.model.tables import HasState, state_of
+from assoc_hull.model.tunnel_definition import TunnelDefinition
 from assoc_hull.surface.cells.filling import FilledCells, fill_cells
 from assoc_hull.surface.cells.net_faces import sound_cells
 from assoc_hull.surface.cells.net_nodes import merge_linked
+from assoc_hull.surface.cells.tunnel_walls import cut_mouth, wall_of
 
 __all__ = [
     "SHELL",
@@ -181,6 +183,28 @@ def _used(sheets: TriangleGroups) -> TriangleGroups:
     )
 
 
+_SIDES = 16
+"""Sides of the prism that stands for a tunnel, to each point of an edge."""
+
+
+def _tunnelled(sheets: TriangleGroups, tunnel: TunnelDefinition, sides: int) -> TriangleGroups:
+    """Cut the mouth of a tunnel out of a half hull, and add its wall to the centre plane."""
+    axis = tunnel.x, tunnel.z
+    cut = cut_mouth(sheets.xyz, sheets.triangle, axis, tunnel.radius, sides)
+    xyz, wall, foot = wall_of(cut.xyz, cut.triangle, axis, tunnel.radius)
+    central = np.zeros(len(xyz), bool)
+    central[: len(sheets.central)] = sheets.central
+    central[foot] = True
+    return _used(
+        TriangleGroups(
+            xyz, np.concatenate([cut.triangle, wall]),
+            np.concatenate([sheets.group[cut.source], np.full(len(wall), len(sheets.names))]),
+            np.concatenate([sheets.cell[cut.source], np.full(len(wall), -1)]),
+            central, (*sheets.names, tunnel.name), sheets.collapsed,
+        )
+    )  # fmt: skip
+
+
 def mirror_half(sheets: TriangleGroups) -> TriangleGroups:
     """Give both sides of the hull: port first, then starboard."""
     across = np.flatnonzero(~sheets.central)
@@ -222,7 +246,7 @@ class MeshReport:
     first_open : (3,), m
         The middle of the first of them; nan where there is none.
     euler : int
-        Vertices - edges + triangles: 2 for one closed surface without a hole through it.
+        Vertices - edges + triangles: 2 for one closed surface, 2 less for each tunnel through it.
     fluxes : (3,), m3
         The volume by x, by y and by z: alike if, and only if, the mesh is closed.
     area : float, m2
@@ -233,6 +257,8 @@ class MeshReport:
         Triangles taken away because two of their corners coincide.
     slenderness : (3,)
         Longest side by the height over it, of half, of 95 % and of 99 % of the triangles no more.
+    tunnels : int
+        How many there should be.
     """
 
     vertices: int
@@ -247,6 +273,7 @@ class MeshReport:
     nil: int
     collapsed: int
     slenderness: FloatArray
+    tunnels: int = 0
 
     def __attrs_post_init__(self) -> None:
         freeze(self.first_open, self.fluxes, self.slenderness)
@@ -258,12 +285,15 @@ class MeshReport:
 
     @property
     def sound(self) -> bool:
-        """Whether it is closed, one body without a hole through it, and faces outward."""
+        """Whether it is closed, one body with no hole but its tunnels, and faces outward."""
         least, most = float(self.fluxes.min()), float(self.fluxes.max())
-        return self.closed and self.euler == 2 and least > 0.0 and most - least <= _ALIKE * most
+        alike = least > 0.0 and most - least <= _ALIKE * most
+        return self.closed and self.euler == 2 - 2 * self.tunnels and alike
 
 
-def examine_mesh(xyz: FloatArray, triangle: IntArray, collapsed: int = 0) -> MeshReport:
+def examine_mesh(
+    xyz: FloatArray, triangle: IntArray, collapsed: int = 0, tunnels: int = 0
+) -> MeshReport:
     """Examine a mesh.
 
     Parameters
@@ -274,6 +304,8 @@ def examine_mesh(xyz: FloatArray, triangle: IntArray, collapsed: int = 0) -> Mes
         Triangles.
     collapsed : int
         How many were taken away before.
+    tunnels : int
+        How many there should be.
 
     Examples
     --------
@@ -304,6 +336,7 @@ def examine_mesh(xyz: FloatArray, triangle: IntArray, collapsed: int = 0) -> Mes
         int((area <= _NIL * float(np.ptp(xyz[:, 0])) ** 2).sum()),
         collapsed,
         _slenderness(mesh, area),
+        tunnels,
     )  # fmt: skip
 
 
@@ -495,6 +528,7 @@ def mesh_of_net(
     half: bool = False,
     points: int = 4,
     leave_out: NDArray[np.bool_] | None = None,
+    tunnels: Sequence[TunnelDefinition] = (),
 ) -> ClosedMesh:
     """Make a closed mesh on the lines of a hull.
 
@@ -508,6 +542,8 @@ def mesh_of_net(
         Into how many parts each piece of a line between two crossings is cut; even.
     leave_out : (m,) bool or None
         Curves to do without.
+    tunnels : sequence of TunnelDefinition
+        Through the hull: prisms, of `_SIDES` sides to a point.
 
     Returns
     -------
@@ -540,9 +576,11 @@ def mesh_of_net(
         )
     filled = fill_cells(sound_cells(net, leave_out), points)
     sheets = cover_openings(filled)
+    for each in tunnels:
+        sheets = _tunnelled(sheets, each, _SIDES * points)
     if not half:
         sheets = mirror_half(sheets)
-    report = examine_mesh(sheets.xyz, sheets.triangle, sheets.collapsed)
+    report = examine_mesh(sheets.xyz, sheets.triangle, sheets.collapsed, len(tunnels))
     if not half and report.closed and not report.sound:
         fluxes = ", ".join(f"{each:.6g}" for each in report.fluxes.tolist())
         raise OpenNetError(
@@ -591,7 +629,13 @@ def closed_mesh(
     if state.failed:
         raise BadInputError("a curve has failed", _WHERE, "mend it, or take back the edit")
     net = gather_net(state)
-    return mesh_of_net(net, half=half, points=points, leave_out=curves_named(net, leave_out))
+    names = all_of(leave_out, str, "leave_out", _WHERE)
+    held = [each.name for each in state.tunnels]
+    return mesh_of_net(
+        net, half=half, points=points,
+        leave_out=curves_named(net, [name for name in names if name not in held]),
+        tunnels=[each for each in state.tunnels if each.name not in names],
+    )  # fmt: skip
 
 
 def curves_named(net: CurveNet, names: Sequence[str], where: str = _WHERE) -> NDArray[np.bool_]:

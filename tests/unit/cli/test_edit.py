@@ -249,3 +249,22 @@ def test_a_refused_edit_leaves_the_file(
     assert "folds back on itself" in told.out
     assert told.err.startswith("refused: edit 'edits', ")
     assert hull.read_bytes() == before
+
+
+def test_a_tunnel_is_typed_and_told(
+    hull: Path, facts: Json, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It stands in the file, in `info` and in the head of hydrostatics; taken away it is not."""
+    before = ah.open(hull).fingerprint
+    facts("edit", hull, "tunnel", "bow thruster", "x=80", "z=3", "radius=700mm")
+    assert facts("info", hull)["tunnels"] == [
+        {"name": "bow thruster", "x": 80.0, "z": 3.0, "radius": 0.7}
+    ]
+    assert main(["info", str(hull)]) == 0
+    assert "bow thruster: 1.4 m across at x 80, z 3 m" in capsys.readouterr().out
+    assert main(["hydrostatics", str(hull), "--draught", "6"]) == 0
+    assert "taken off as far as it is immersed" in " ".join(capsys.readouterr().out.split())
+    assert main(["edit", str(hull), "tunnel", "another", "x=20"]) == 2
+    assert "tunnel takes NAME x= z= radius=" in capsys.readouterr().err
+    facts("edit", hull, "remove_tunnel", "bow thruster")
+    assert ah.open(hull).fingerprint == before

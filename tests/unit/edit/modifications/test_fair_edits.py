@@ -109,7 +109,7 @@ def test_the_order_of_requests_changes_no_place(carrier: Hull) -> None:
 def test_a_fair_pull_lands_where_it_was_asked_and_nothing_swings_back(carrier: Hull) -> None:
     """The point goes 20 mm along the normal; none goes more than 2 mm the other way."""
     state = carrier.document.state
-    row = carrier.find("WL 9 x ST 17").number
+    row = carrier.points["WL 9 x ST 17"].number
     normal, before = hull_normals(state).copy(), state.rows.xyz.data.copy()
     free = fairable_rows(state)
     with carrier.edit("pull") as edit:
