@@ -643,13 +643,13 @@ class Hull:
         up: int = 1,
         down: int = 1,
         only: OnlyName | None = None,
-        edit: int | None = None,
+        step: int | None = None,
     ) -> networkx.MultiDiGraph[str]:
         """Give objects and links as a graph; see `assoc_hull.edit.explain.hull_graph.graph_of`."""
         from assoc_hull.edit.explain.hull_graph import graph_of
 
         hops = integer(up, "up", "in graph", least=0), integer(down, "down", "in graph", least=0)
-        return graph_of(self.document, around, hops, only, edit)
+        return graph_of(self.document, around, hops, only, step)
 
     def dependencies(self, points: bool = False) -> networkx.DiGraph[str]:
         """Give who drives whom now; see `assoc_hull.model.object_graph.dependencies`."""
