@@ -132,7 +132,8 @@ def test_a_scale_of_nothing_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "options",
     [{"draught": 40.0}, {"draught": 4.0, "depth": 30.0},
-     {"draught": 4.0, "ap": 10, "length": 10.0, "fp": 500}, {"draught": 4.0, "base": 30}, {"draught": 4.0, "ap": 500}],
+     {"draught": 4.0, "ap": 10, "length": 10.0, "fp": 500},
+     {"draught": 4.0, "base": 30}, {"draught": 4.0, "ap": 500}],
     ids=["draught", "depth", "length", "base line", "perpendicular"],
 )  # fmt: skip
 def test_dimensions_that_do_not_fit_a_table_name_its_file(
