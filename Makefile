@@ -61,13 +61,16 @@ lint: $(STAMP)  ## rules of style, formatting, imports and types
 bench: $(STAMP)  ## the benchmarks
 	$(BIN)/python -m benchmarks $(ARGS)
 
-# It has an environment of its own: nothing of it is needed to use or test the package.
+# It has an environment of its own: nothing of it is needed to use or test the package. What the
+# package itself needs is in it, too: tables of the pages are made from the code.
 SITE := build/docs-env
 
 $(SITE)/.installed: requirements/docs.txt
 	@test -n "$(PYTHON)" || { echo "error: no Python 3.11 or newer with venv was found" >&2; exit 2; }
 	$(PYTHON) -m venv $(SITE)
 	$(SITE)/bin/python -m pip install --quiet --requirement requirements/docs.txt
+	$(SITE)/bin/python -m pip install --quiet --constraint requirements/ci.txt \
+	    attrs networkx numpy rich scipy shtab threadpoolctl
 	@touch $@
 
 site: $(SITE)/.installed  ## the documentation as a site with search, in build/site

@@ -1,17 +1,16 @@
-"""Write the catalogue of form parameters into its page: `python docs/catalogue.py`.
+"""The catalogue of form parameters as tables: `python docs/catalogue.py` prints it.
 
-The tables stand at the end of `docs/parameters.md`, below a mark; what stands above is written by
-hand. `tests/unit/test_docs.py` compares.
+`docs/site_hook.py` puts it at the mark of `docs/parameters.md` when the site is built: it is always
+that of the code.
 """
 
 from collections.abc import Iterator
-from pathlib import Path
 
 from assoc_hull.analysis.form.catalogue import CATALOGUE, GIVEN, TITLES, by_table
 from assoc_hull.analysis.form.parameter import SHAPE, FormParameter
 
-PAGE = Path(__file__).resolve().parent / "parameters.md"
-MARK = "<!-- Made by `python docs/catalogue.py`; what stands below is not edited by hand. -->\n"
+PAGE = "parameters.md"
+MARK = "<!-- catalogue of form parameters -->\n"
 
 
 def tables() -> str:
@@ -45,15 +44,5 @@ def cited(sources: list[str]) -> Iterator[str]:
     yield from (f"{k}. {words}" for k, words in enumerate(sources, 1))
 
 
-def refreshed(page: str) -> str:
-    """Give the page with the tables as they are now."""
-    above, mark, _ = page.partition(MARK)
-    assert mark, "the page has lost the mark below which the tables stand"
-    return above + mark + tables()
-
-
 if __name__ == "__main__":
-    old = PAGE.read_text("utf-8")
-    new = refreshed(old)
-    PAGE.write_text(new, "utf-8")
-    print(f"docs/{PAGE.name}: {'changed' if new != old else 'as it was'}")
+    print(tables())

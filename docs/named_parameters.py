@@ -1,15 +1,13 @@
-"""Write the named parameters into their page: `python docs/named_parameters.py`.
+"""The named parameters as tables: `python docs/named_parameters.py` prints them.
 
-The tables stand between two marks of `docs/variation.md`. What they say comes from the catalogue,
-from measures and layouts on the bulk carrier, and from its list of what may be asked;
-`tests/unit/test_docs.py` compares.
+What they say comes from the catalogue, from measures and layouts on the bulk carrier, and from its
+list of what may be asked. `docs/site_hook.py` puts them at the mark of `docs/variation.md` when the
+site is built, so that they are always those of the code.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import attrs
@@ -23,9 +21,8 @@ from assoc_hull.variation.parameters.parameter_fields import main_layer
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import Parent, parent_of
 
-PAGE = Path(__file__).resolve().parent / "variation.md"
-MARK = "<!-- Made by `python docs/named_parameters.py`; edit nothing from here ... -->\n"
-END = "<!-- ... to here. -->\n"
+PAGE = "variation.md"
+MARK = "<!-- named parameters -->\n"
 REACHES = [
     field.name for field in attrs.fields(Layout)
     if field.name != "blend" and field.default is not None
@@ -118,22 +115,5 @@ def _row(*cells: str) -> str:
     return "| " + " | ".join(cells) + " |"
 
 
-def _split(page: str) -> Iterator[str]:
-    above, mark, rest = page.partition(MARK)
-    _, end, below = rest.partition(END)
-    assert all((mark, end)), "the page has lost the marks between which the tables stand"
-    yield above
-    yield below
-
-
-def refreshed(page: str) -> str:
-    """Give the page with the tables as they are now."""
-    above, below = _split(page)
-    return above + MARK + tables() + END + below
-
-
 if __name__ == "__main__":
-    old = PAGE.read_text("utf-8")
-    new = refreshed(old)
-    PAGE.write_text(new, "utf-8")
-    print(f"docs/{PAGE.name}: {'changed' if new != old else 'as it was'}")
+    print(tables())

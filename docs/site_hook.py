@@ -1,13 +1,16 @@
 """What `mkdocs` does beside building pages: two files of the root join, and all pages the menu.
 
 Pages that the menu of `mkdocs.yml` does not name stand at the end of Theory, so that none is lost.
+Tables that are made from the code are put at their marks.
 """
 
+import importlib.util
 from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 JOINED = ("CHANGELOG.md", "CONTRIBUTING.md")
+TABLES = ("catalogue", "named_parameters")
 
 
 def on_config(config: Any) -> Any:
@@ -30,8 +33,24 @@ def on_files(files: Any, config: Any) -> Any:
     return files
 
 
-def on_page_markdown(markdown: str, **_: Any) -> str:
-    """Point at them where they stand on the site."""
+def with_tables(markdown: str, name: str) -> str:
+    """Give a page with the tables that belong at its mark; another page as it is."""
+    for each in TABLES:
+        path = ROOT / "docs" / f"{each}.py"
+        spec = importlib.util.spec_from_file_location(each, path)
+        assert spec is not None
+        assert spec.loader is not None
+        script = importlib.util.module_from_spec(spec)
+        if f'PAGE = "{name}"' in path.read_text("utf-8"):
+            spec.loader.exec_module(script)
+            assert script.MARK in markdown, f"{name} has lost the mark of its tables"
+            markdown = markdown.replace(script.MARK, script.tables())
+    return markdown
+
+
+def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
+    """Point at them where they stand on the site, and put tables at their marks."""
+    markdown = with_tables(markdown, page.file.src_uri)
     for name in JOINED:
         markdown = markdown.replace(f"](../{name})", f"]({name})")
     return markdown

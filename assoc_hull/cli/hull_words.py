@@ -335,7 +335,7 @@ def _moved(hull: Hull, report: EditReport, indent: str) -> Iterator[str]:
 def _movement(hull: Hull, movement: Movement, way: str = "") -> str:
     book, (x, y, z) = AddressBook(hull.state), movement.place
     key = movement.point
-    name = book.address(book.keys[key].row) if key in book.keys else key
+    name = book.address(book.keys[key].row) if key in book.keys else movement.name or key
     return f"{name}, by {1e3 * movement.distance:.1f} mm{way}, to ({x:.3f}, {y:.3f}, {z:.3f}) m"
 
 

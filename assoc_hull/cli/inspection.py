@@ -315,7 +315,7 @@ def _add_filters(parser: argparse.ArgumentParser) -> None:
         "what an edit changed",
     )  # fmt: skip
     parser.add_argument(
-        "--edit", type=int, metavar="N",
+        "--step", type=int, metavar="N",
         help="only what the edit of this number changed, as `history` lists it; -1 is the last "
         "(default with --only changed: the last)",
     )  # fmt: skip
@@ -339,7 +339,7 @@ def _graph(arguments: argparse.Namespace) -> int:
     hull = open_hull(arguments.hull)
     with progress("writing the graph"):
         found = hull.graph(
-            around=arguments.around, up=up, down=down, only=arguments.only, edit=arguments.edit
+            around=arguments.around, up=up, down=down, only=arguments.only, step=arguments.step
         )
         text = graph_text(found, arguments.format or _FORMATS[0])
     if not len(found):

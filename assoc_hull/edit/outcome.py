@@ -20,6 +20,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.graph.journal import Journal, distinct
 from assoc_hull.graph.network import Readers
 from assoc_hull.graph.run_update import UpdatePass
+from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import along_normal, sides_held
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.network import bits_differ
@@ -326,11 +327,11 @@ def _largest_written(
     places = journal.net(state.rows.xyz)
     alive = state.rows.alive[places.rows]
     movements = Movements.of(state, places.rows[alive], places.old[alive])
-    return largest_movements(state.rows.key.data, movements, changed, moved)
+    return largest_movements(state, movements, changed, moved)
 
 
 def largest_movements(
-    key: Sequence[str], movements: Movements, changed: IntArray, moved: FloatArray
+    state: HullState, movements: Movements, changed: IntArray, moved: FloatArray
 ) -> tuple[Movement | None, Movement | None]:
     """Find the largest movement of a point, and the largest along the normal of the hull.
 
@@ -339,16 +340,18 @@ def largest_movements(
     """
     point = Node.is_point(changed)
     told = point & np.isfinite(moved)
-    largest = _largest(key, movements.take(Node.number(changed[told])), moved[told])
+    largest = _largest(state, movements.take(Node.number(changed[told])), moved[told])
     mine = movements.take(Node.number(changed[point & (moved > 0.0)]))
     held = sides_held(mine.curve, mine.parameter, mine.spline)
     distance = along_normal(mine.curve, mine.parameter, held, mine.spline, mine.new - mine.old)
-    return largest, _largest(key, mine, distance)
+    return largest, _largest(state, mine, distance)
 
 
-def _largest(key: Sequence[str], movements: Movements, distance: FloatArray) -> Movement | None:
+def _largest(state: HullState, movements: Movements, distance: FloatArray) -> Movement | None:
     if not np.isfinite(distance).any():
         return None
     best = int(np.nanargmax(distance))
     x, y, z = movements.new[best].tolist()
-    return Movement(key[int(movements.rows[best])], float(distance[best]), (x, y, z))
+    row = int(movements.rows[best])
+    key, name = state.rows.key.data[row], AddressBook(state).address(row)
+    return Movement(key, float(distance[best]), (x, y, z), name if name != key else "")

@@ -206,7 +206,7 @@ class _Notes:
         every = Node.number(evaluated[Node.is_curve(evaluated)])
         curves = every[np.sort(np.unique(every, return_index=True)[1])]
         keys = tuple(state.curves.key.data[curve] for curve in curves.tolist())
-        largest, normal = largest_movements(state.rows.key.data, self.movements, nodes, moved)
+        largest, normal = largest_movements(state, self.movements, nodes, moved)
         return EditReport(
             self.name,
             planned=self.net.reached(Node.point(self.passes[0].seeds)),

@@ -97,11 +97,14 @@ class Movement:
         How far.
     place : (float, float, float), m
         Where it lies now.
+    name : str
+        Its address, as ``WL 0.5 x ST 16``; empty in steps that older versions kept.
     """
 
     point: str
     distance: float
     place: tuple[float, float, float]
+    name: str = ""
 
 
 SAME_MOVEMENT = 0.05e-3
@@ -116,7 +119,7 @@ def movement_words(largest: Movement, normal: Movement | None) -> list[str]:
     >>> from assoc_hull.edit.report import Movement, movement_words
     >>> slid = Movement("P", 0.0813, (50.0, 4.0, 2.0))
     >>> movement_words(slid, Movement("Q", 0.01, (48.0, 4.1, 2.5)))[0]
-    'largest movement 10.0 mm along the normal at (48.000, 4.100, 2.500) m, Q'
+    'largest movement 10.0 mm along the normal at Q (48.000, 4.100, 2.500) m'
     """
     if normal is None:
         return [f"largest movement {_movement_words(largest)}"]
@@ -131,9 +134,9 @@ def movement_words(largest: Movement, normal: Movement | None) -> list[str]:
 def _movement_words(movement: Movement, way: str = "") -> str:
     x, y, z = movement.place
     distance = f"{1e3 * movement.distance:.1f} mm"
-    # A key of the tables ("sections:97.536 x ...") is no word: the place says where.
-    name = "" if ":" in movement.point else f", {movement.point}"
-    return f"{distance}{way} at ({x:.3f}, {y:.3f}, {z:.3f}) m{name}"
+    # A key of the tables ("sections:97.536 x ...") is no word: the place alone says where.
+    name = movement.name or ("" if ":" in movement.point else movement.point)
+    return f"{distance}{way} at {name}{' ' * bool(name)}({x:.3f}, {y:.3f}, {z:.3f}) m"
 
 
 @attrs.frozen

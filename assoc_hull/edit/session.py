@@ -876,6 +876,9 @@ class Edit:
     ) -> Line:
         """Cut a new line at a position (m) along its family's axis.
 
+        Without a name it is called as its group counts: ``WL 0.478`` among waterlines in parts of
+        the draught, ``ST 5.413`` among stations, ``BTK 2.5`` where names are metres.
+
         A diagonal takes ``(height, angle)``: where its plane meets the centre plane, m, and by
         how many degrees it falls outward from the horizontal.
         """

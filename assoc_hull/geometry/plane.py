@@ -19,7 +19,7 @@ from assoc_hull.arguments import choice, number, shown
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["AXES", "Axis", "Plane", "as_plane", "plane_axes", "unit_normal"]
+__all__ = ["AXES", "Axis", "Plane", "as_plane", "plane_asked", "plane_axes", "unit_normal"]
 
 Axis = Literal["x", "y", "z"]
 AXES: tuple[Axis, Axis, Axis] = ("x", "y", "z")
@@ -175,6 +175,26 @@ class Plane:
         products = xyz * self.normal
         result: FloatArray = products[..., 0] + products[..., 1] + products[..., 2] - self.offset
         return result
+
+
+def plane_asked(
+    plane: object, x: float | None, y: float | None, z: float | None, where: str
+) -> Plane:
+    """Give the one plane that is asked for: as such, or by the coordinate that its points share.
+
+    Raises
+    ------
+    BadInputError
+        None, several, or what is no plane.
+    """
+    given = [(axis, at) for axis, at in zip(AXES, (x, y, z), strict=True) if at is not None]
+    if (plane is not None) + len(given) != 1:
+        what = "several planes are given" if given else "no plane is given"
+        raise BadInputError(what, where, "give a plane, or one of x=, y= and z= in m")
+    if plane is not None:
+        return as_plane(plane)
+    axis, at = given[0]
+    return Plane.across(axis, number(at, axis, where))
 
 
 def as_plane(value: object) -> Plane:

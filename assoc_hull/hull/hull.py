@@ -28,6 +28,7 @@ from assoc_hull.arguments import (
     integer,
     not_negative,
     number,
+    shown,
     small_length,
     text,
 )
@@ -37,7 +38,7 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out
 from assoc_hull.edit.session import Edit, join_edit, open_edit
 from assoc_hull.edit.write_lock import PATIENCE
-from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError, WrongTypeError
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import FAMILIES, OWN
 from assoc_hull.model.line_source import LineSource
@@ -95,6 +96,7 @@ if TYPE_CHECKING:
     from assoc_hull.fairing.line_fairness import FairnessTable
     from assoc_hull.fairing.net_doctor import NetDoctorReport
     from assoc_hull.geometry.curves import FloatArray
+    from assoc_hull.geometry.plane import Plane
     from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
     from assoc_hull.hull.pictures import HullPictures
     from assoc_hull.hull.results import HullPlates, HullSurface, ProductionArcs
@@ -653,13 +655,44 @@ class Hull:
         up: int = 1,
         down: int = 1,
         only: OnlyName | None = None,
-        edit: int | None = None,
+        step: int | None = None,
     ) -> networkx.MultiDiGraph[str]:
-        """Give objects and links as a graph; see `assoc_hull.edit.explain.hull_graph.graph_of`."""
+        """Give objects and links as a graph, or what lies around one of them.
+
+        Parameters
+        ----------
+        around : handle, address or definition, or None
+            Only what lies near this object; of a line, its curves. None: all of the hull.
+        up, down : int
+            Most links against and along their direction, from `around`.
+        only : {"two-way", "one-way", "latent", "changed", "dirty"} or None
+            Links by which both curves generate points, only one does, or none does yet; what an
+            edit changed; what the edit that is open here has reached.
+        step : int or None
+            Only what the edit of this number of the history changed; -1 is the last.
+
+        Returns
+        -------
+        networkx.MultiDiGraph
+            What passes every filter; nodes and links have attributes, see docs/inspection.md.
+
+        Raises
+        ------
+        UnknownNameError, ForeignPointError, WrongTypeError, BadInputError
+            No such object, filter or edit.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> found = hull.graph(around=hull["WL 2.5 x ST 7"], up=0, down=1)
+        >>> sorted(data["kind"] for _, data in found.nodes(data=True))
+        ['curve', 'curve', 'point', 'point']
+        """
         from assoc_hull.edit.explain.hull_graph import graph_of
 
         hops = integer(up, "up", "in graph", least=0), integer(down, "down", "in graph", least=0)
-        return graph_of(self.document, around, hops, only, edit)
+        return graph_of(self.document, around, hops, only, step)
 
     def dependencies(self, points: bool = False) -> networkx.DiGraph[str]:
         """Give who drives whom now; see `assoc_hull.model.object_graph.dependencies`."""
@@ -673,6 +706,65 @@ class Hull:
 
         where = "in half_breadth"
         return half_breadth(self.state, number(x, "x", where), number(z, "z", where))
+
+    def meet(
+        self,
+        line: Line | Curve | str,
+        plane: Plane | tuple[Sequence[float], float] | None = None,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        z: float | None = None,
+    ) -> FloatArray:
+        """Find where a line meets a plane; nothing is added to the hull.
+
+        Parameters
+        ----------
+        line : Line, Curve or str
+            The line, all its curves, or one curve of it; or its name.
+        plane : Plane, or (unit normal, offset in m)
+            The plane, whose points P have ``normal . P = offset``.
+        x, y, z : float, m
+            In place of `plane`, the coordinate that its points share: x forward from AP, y to
+            port from the centre plane, z up from the base line.
+
+        Returns
+        -------
+        (k, 3), m
+            The places, in order along each curve; none where the line does not come there, or
+            lies in the plane.
+
+        Raises
+        ------
+        BadInputError, WrongTypeError
+            No plane or several, a normal that is not of unit length, no line.
+        UnknownNameError
+            The hull has no such line; near names are told.
+        ForeignPointError
+            A line of another hull.
+
+        See Also
+        --------
+        half_breadth : at any place of the hull, also between lines.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> hull.meet("WL 2.5", x=52.5).round(3).tolist()
+        [[52.5, 3.192, 2.5]]
+        >>> len(hull.meet("WL 2.5", ((0.6, 0.8, 0.0), 33.0)))
+        1
+        """
+        from assoc_hull.geometry.plane import plane_asked
+
+        found = self.find(line) if isinstance(line, str) else line
+        if not isinstance(found, Line | Curve):
+            what = f"the line is {shown(line)}"
+            raise WrongTypeError(what, "in meet", "give a line or a curve, or its name")
+        if found.home is not self.state.live_tables:
+            raise ForeignPointError(f"{type(found).__name__.lower()} {found.id!r}")
+        return found.meet(plane_asked(plane, x, y, z, "in meet"))
 
     def tunnel(self, name: str, *, x: float, z: float, radius: float) -> Tunnel:
         """Measure a thruster's tunnel athwartships through the hull, as it is now; none is kept.

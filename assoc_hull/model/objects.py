@@ -12,7 +12,8 @@ Associative Geometry Objects", J. SNAK 36(4), 1999.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import ItemsView, Iterator, Mapping, ValuesView
+from collections.abc import ItemsView, Iterator, Mapping, Sequence, ValuesView
+from types import MappingProxyType
 from typing import ClassVar, Self
 
 import attrs
@@ -560,6 +561,11 @@ class Curve(Handle):
         t, xyz, distance = closest_points(self.spline, 0, place[None])
         return float(t[0]), xyz[0], float(distance[0])
 
+    def meet(self, plane: Plane | tuple[ArrayLike, float]) -> FloatArray:
+        """Give the places where it meets a plane, (k, 3), m, in order along it; as `Line.meet`."""
+        tables, row = self._here()
+        return _met(tables, [row], as_plane(plane))
+
     def polyline(self, per_segment: int = 8) -> FloatArray:
         """Give places along the curve for drawing, (n, 3), m; frozen."""
         where = f"in polyline of {self.name}"
@@ -677,14 +683,17 @@ class Line(Handle):
         [[10.0, 1.8, 7.0]]
         """
         cut = as_plane(plane)
-        offsets = np.array([cut.offset])
         tables, curves = self._curves()
-        found = [
-            intersect_planes(tables.spline(curve), cut.normal, offsets).xyz for curve in curves
-        ]
-        out = np.concatenate([*found, np.zeros((0, 3))])
-        freeze(out)
-        return out
+        return _met(tables, curves, cut)
+
+
+def _met(tables: HullState, curves: Sequence[int], plane: Plane) -> FloatArray:
+    """Give the places where curves meet a plane, curve by curve, (k, 3), m; frozen."""
+    offsets = np.array([plane.offset])
+    found = [intersect_planes(tables.spline(each), plane.normal, offsets).xyz for each in curves]
+    places = np.concatenate([*found, np.zeros((0, 3))])
+    freeze(places)
+    return places
 
 
 @attrs.frozen(repr=False)
@@ -904,6 +913,18 @@ def numbers_of(
     return ResolvedAddress(int(state.lines.group[line]), line, curve, row, side if row >= 0 else -1)
 
 
+_ROLES = ("shared", "driven", "watched", "pinned", "adopted")
+
+
+def _role(state: HullState, row: int) -> str:
+    """Give what decides where a point lies."""
+    sort = state.rows.sort[row]
+    if sort != Sort.CROSSING:
+        return "pinned" if sort == Sort.PLACED else "adopted"
+    role = Role(int(state.rows.role[row]))
+    return "driven" if role in (Role.DRIVES_A, Role.DRIVES_B) else role.text
+
+
 class Points(Mapping[str, Point]):
     """The points of a hull by address; a crossing stands under its line of higher rank.
 
@@ -950,6 +971,37 @@ class Points(Mapping[str, Point]):
     def values(self) -> ValuesView[Point]:
         """Give the points."""
         return dict(self._all()).values()
+
+    def by_role(self) -> Mapping[str, tuple[Point, ...]]:
+        """Sort the points by what decides where they lie.
+
+        Returns
+        -------
+        mapping of str to tuple of Point
+            Each point once, under its line of higher rank, in the order of the tables, by
+
+            - ``"shared"``: crossings that both curves are made through;
+            - ``"driven"``: crossings computed from one curve, which the other is made through;
+            - ``"watched"``: crossings that neither curve is made through; their gap is measured;
+            - ``"pinned"``: points that a designer placed; no edit of others moves them;
+            - ``"adopted"``: points of the shape as it came, which go with fields.
+
+        See Also
+        --------
+        Point.crossing_role, Point.driver : of one point.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> {role: len(points) for role, points in hull.points.by_role().items()}
+        {'shared': 219, 'driven': 29, 'watched': 0, 'pinned': 0, 'adopted': 25}
+        """
+        found: dict[str, list[Point]] = {role: [] for role in _ROLES}
+        state = self._state
+        for _, point in self._all():
+            found[_role(state, point.row)].append(point)
+        return MappingProxyType({role: tuple(points) for role, points in found.items()})
 
     def _all(self) -> Iterator[tuple[str, Point]]:
         """Give all points by address from one book: a look-up each would make one each."""

@@ -50,19 +50,19 @@ def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) ->
             assert printed == block["shown"], "if the page is out of date: python docs/blocks.py"
 
 
-def test_the_catalogue_of_form_parameters_is_that_of_the_code() -> None:
-    """Every entry stands on its page, as it is; `python docs/catalogue.py` renews it."""
-    script = _script("catalogue")
-    page = script.PAGE.read_text("utf-8")
-    assert script.refreshed(page) == page, "the page is out of date: python docs/catalogue.py"
-
-
 @pytest.mark.usefixtures("made_already")
-def test_the_named_parameters_are_those_of_the_code() -> None:
-    """Each stands on its page as it is; `python docs/named_parameters.py` renews it."""
-    script = _script("named_parameters")
-    page = script.PAGE.read_text("utf-8")
-    assert script.refreshed(page) == page, "the page is out of date: docs/named_parameters.py"
+@pytest.mark.parametrize(
+    ("name", "entry"),
+    [("parameters.md", "| `Cb` |"), ("variation.md", "| `entrance_deg` |")],
+    ids=["form parameters", "named parameters"],
+)
+def test_tables_that_are_made_from_the_code_stand_on_the_site(name: str, entry: str) -> None:
+    """The site puts them at a mark of the page, which the page in the repository only has."""
+    hook = _script("site_hook")
+    page = (ROOT / "docs" / name).read_text("utf-8")
+    assert entry not in page
+    assert entry in hook.with_tables(page, name)
+    assert hook.with_tables("# Another\n", "index.md") == "# Another\n"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=_name)

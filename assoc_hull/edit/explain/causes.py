@@ -234,7 +234,7 @@ def step_numbered(document: Document, number: int, where: str) -> Step:
     BadInputError
         The history has none.
     """
-    integer(number, "edit", where, least=-(10**6))
+    integer(number, "step", where, least=-(10**6))
     steps = document.history
     found = [each for each in steps if each.number == number]
     if not found and -len(steps) <= number < 0:

@@ -31,7 +31,7 @@ def graph_of(
     around: Thing | FormDefinition | str | None = None,
     hops: tuple[int, int] = (1, 1),
     only: OnlyName | None = None,
-    edit: int | None = None,
+    step: int | None = None,
 ) -> networkx.MultiDiGraph[str]:
     """Give objects and links as a graph (`model.object_graph`), or a part of it.
 
@@ -47,9 +47,9 @@ def graph_of(
         Links of this kind and what they join: curves (and groups) each of which generates,
         or may generate, on the other; those of which only one does; curves that may come to
         meet and do not; what an edit changed; or what the edit that is open here has reached.
-    edit : int or None
-        Only what the edit of this number changed; -1 is the last. None with "changed" means
-        the last.
+    step : int or None
+        Only what the edit of this number changed, as the history counts; -1 is the last. None
+        with "changed" means the last.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def graph_of(
     """
     if only is not None:
         choice(only, "only", ONLY, "in graph")
-    number = -1 if only == "changed" and edit is None else edit
+    number = -1 if only == "changed" and step is None else step
     changed = None if number is None else changed_by(document, number)
     found = object_graph(document.state.published())
     dirty = _dirty(document)

@@ -8,6 +8,7 @@ are rounded with points that follow from the normals of the hull at the marks be
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 import attrs
@@ -19,7 +20,7 @@ from assoc_hull.edit.crossings.adopted_points import insert_defining_point
 from assoc_hull.edit.crossings.tangencies import NO_ROOT
 from assoc_hull.edit.lines.curve_deviation import deviation_with
 from assoc_hull.edit.lines.kept_runs import NO_KEPT_RUNS, KeptRuns
-from assoc_hull.edit.lines.line_planes import new_plane, ready_group
+from assoc_hull.edit.lines.line_planes import CuttingPlane, new_plane, ready_group
 from assoc_hull.edit.lines.mark_order import headings, nearest_order, through_facets
 from assoc_hull.edit.lines.marks import (
     Marks,
@@ -154,6 +155,12 @@ def _outermost(ends: FloatArray, heading: FloatArray) -> FloatArray | None:
 _RING = 4
 """A ring of fewer marks than this makes no curve."""
 
+_AGREEING, _AGREE = 4, 0.8
+"""So many numbered lines, and such a part of them, make the measure of a group."""
+
+_ROUNDED = 2e-3
+"""Of a unit: a name is rounded to three digits."""
+
 _SLIDE = 0.1
 """Times `Tolerances.factor`: room (m) for a crossing whose driver passes the new plane squarely;
 more if obliquely."""
@@ -178,7 +185,7 @@ def add_line(
         Place of its plane along the family's axis; of a diagonal the height at the centre
         plane and the angle by which it falls outward from the horizontal.
     name : str or None
-        Prefix and position if None.
+        If None, the prefix and the position in the measure of the group: see `_name_in_use`.
     keep : float or None, m
         Its crossings define the old curves only where these move by no more than this;
         `Tolerances.keep` if None.
@@ -199,7 +206,9 @@ def add_line(
     edit.pending.structural = True
     family = FAMILIES[state.groups.family[cut.group]]
     if title is None:
-        title = _free_name(state, cut.group, f"{family.prefix} {cut.title}")
+        title = _name_in_use(state, cut) or _free_name(
+            state, cut.group, f"{family.prefix} {cut.title}"
+        )
     line = edit.maker.line(cut.group, title, (cut.normal, cut.offset), key=cut.key)
     for piece in ordered_pieces(edit, line, marks):
         make_piece(edit, line, distinct_marks(state, piece), keep or state.tolerances.keep)
@@ -248,6 +257,43 @@ def _run_on(along: FloatArray, trails: list[IntArray]) -> list[IntArray]:
     """Let every piece run on along an axis, and begin with the one that begins first."""
     ways = [trail if along[trail[0]] <= along[trail[-1]] else trail[::-1] for trail in trails]
     return sorted(ways, key=lambda way: float(along[way[0]]))
+
+
+def _name_in_use(state: HullState, cut: CuttingPlane) -> str | None:
+    """Give a new line the number by which its group counts; None where that is metres.
+
+    Lines called ``WL 0.5``, ``WL 1`` at half the draught and at the draught are counted in
+    draughts, and sections by stations: a new one in metres would stand among them under another
+    measure. The measure is what at least `_AGREE` of the numbered names agree upon.
+    """
+    family = FAMILIES[state.groups.family[cut.group]]
+    if family.axis is None:
+        return None
+    known = [
+        (float(match[1]), float(state.lines.offset[line]))
+        for line in state.live("lines").tolist()
+        if state.lines.group[line] == cut.group
+        and (match := re.fullmatch(rf"{family.prefix} (-?\d+(?:\.\d+)?)", state.lines.name[line]))
+    ]
+    numbers, places = np.array(known).reshape(-1, 2).T
+    if len(np.unique(numbers)) < _AGREEING:
+        return None
+    order = np.argsort(numbers, kind="stable")
+    steps, ways = np.diff(numbers[order]), np.diff(places[order])
+    unit = float(np.median(ways[steps > 0.0] / steps[steps > 0.0]))
+    zero = float(np.median(places - unit * numbers))
+    off = np.abs(places - zero - unit * numbers)
+    if unit <= 0.0 or (off < _ROUNDED * unit).mean() < _AGREE:
+        return None
+    if abs(unit - 1.0) < _ROUNDED and abs(zero) < _ROUNDED:
+        return None
+    taken = {state.lines.name[i] for i in state.live("lines") if state.lines.group[i] == cut.group}
+    # As few digits as tell it from the others.
+    wishes = (
+        f"{family.prefix} {round((cut.offset - zero) / unit, digits) + 0.0:g}"
+        for digits in range(3, 7)
+    )
+    return next((wish for wish in wishes if wish not in taken), None)
 
 
 def _free_name(state: HullState, group: int, wish: str) -> str:

@@ -28,6 +28,7 @@ import numpy as np
 
 from assoc_hull.arguments import regular_file
 from assoc_hull.errors import BadInputError, DamagedFileError, FileBusyError, HullFileError
+from assoc_hull.io.hull_file.foreign_log import require_own_log
 from assoc_hull.io.hull_file.guard import GuardedConnection, Schema, schema_fault, schema_of
 from assoc_hull.io.open_databases import MAGIC, is_open_here, log_file
 
@@ -372,6 +373,11 @@ def _explained(error: sqlite3.Error, path: Path, waited: float) -> Exception:
         what, remedy = "it may only be read", "change its permissions, or save a copy elsewhere"
     elif name.startswith("SQLITE_CANTOPEN"):
         what, remedy = "it cannot be opened", "check the folder, name and permissions"
+        log = log_file(path)
+        # SQLite makes an index beside a log before it reads one.
+        if log.exists() and not _may(path.parent, os.W_OK | os.X_OK):
+            what = f"its last edits lie in the log beside it, {log.name}, in a read-only folder"
+            remedy = "copy both files to a folder that may be written, and open the copy"
     elif name.startswith("SQLITE_IOERR"):
         what, remedy = f"input or output failed ({error})", "the file is as it was; check the disk"
     elif isinstance(error, sqlite3.ProgrammingError | sqlite3.InterfaceError):
@@ -409,6 +415,7 @@ def connect_database(path: Path, wait: float, *, beside: bool = False) -> Guarde
         See `database_errors`.
     """
     _require_readable(path)
+    require_own_log(path)
     with database_errors(path, wait):
         database = _connect(_address(path), wait)
     try:

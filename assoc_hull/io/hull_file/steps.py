@@ -434,7 +434,7 @@ def report_text(report: EditReport) -> str:
 def _movement(said: Any) -> Movement | None:
     if said is None:
         return None
-    return Movement(said["point"], said["distance"], tuple(said["place"]))
+    return Movement(said["point"], said["distance"], tuple(said["place"]), said.get("name", ""))
 
 
 def _led(said: Any) -> Led:

@@ -7,6 +7,8 @@ a classical definition, does not come through here.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -99,7 +101,8 @@ def _import(path: Path, wanted: ImportOptions, tell: Tell) -> tuple[HullState, I
     elif holds_lines(path):
         state, report = _import_lines(path, wanted, tell)
     else:
-        state, report = _import_table(path, wanted)
+        with _file_named(path):
+            state, report = _import_table(path, wanted)
     if own is not None and own.state is None:
         report = attrs.evolve(report, notes=own.added_to(report.notes))
     tell("checking", 0, 0)
@@ -182,6 +185,17 @@ def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, Import
         besides = tuple(map(str, grouped([*map(finding_of, notes.suspicions)])))
         raise NotSoundError(path.name, tuple(map(str, found)), suspicions=besides) from error
     return state, ImportReport(notes, adoption, Verdict(), table=table, frame=frame)
+
+
+@contextmanager
+def _file_named(path: Path) -> Iterator[None]:
+    """Let errors of a table name its file: where many are read, "in the table" is no place."""
+    try:
+        yield
+    except BadInputError as error:
+        if error.where.removeprefix("in ") == "the table":
+            error.where = f"in the table {path.name}"
+        raise
 
 
 def _placed_table(

@@ -147,7 +147,7 @@ _TOLD = {
     "flat": "part of the area", "unresolved": "part of the area beside borders of blocks",
     "contested": "part of the area with K0/2 <= |K| <= 2 K0",
     "changed": "part of the area that another fit tells otherwise",
-    "kind": "null: net too coarse for regions, or unresolved",
+    "kind": "of the fitted surface, in doubt where contested + changed > 20 %; null: unresolved",
     "order": "1 flat, 2 bent one way, 3 bent both ways; null: no class",
     "roll_axis": "from the long axis towards the short one; null: there is none",
     "total_curvature": "integral of |K| dA", "mean_strain": "|K| b**2 / 8, b the breadth",

@@ -25,6 +25,7 @@ from assoc_hull.plot.lines_plan.drawing import Drawing, drawing, pen_of
 from assoc_hull.plot.lines_plan.three_views import body_halves, extent
 from assoc_hull.plot.sheet.labels import wrap_words
 from assoc_hull.plot.sheet.paper import LINE, WATER
+from assoc_hull.plot.sheet.pdf_outline import Bookmark
 from assoc_hull.plot.sheet.report_pages import (
     GREY,
     LEFT,
@@ -242,8 +243,8 @@ class _Entry:
 
 def book_pages(
     hull: HasState, parts: Sequence[BookPart], design: HydrostaticTable, title: str
-) -> list[Figure]:
-    """Lay out a booklet: title, contents, parts; all pages numbered.
+) -> tuple[list[Figure], list[Bookmark]]:
+    """Lay out a booklet: title, contents, parts; all pages numbered. Gives its bookmarks, too.
 
     Parameters
     ----------
@@ -273,7 +274,11 @@ def book_pages(
                 page_foot(page, [hull_words], number)
         else:
             _number_picture(page, f"{ship}   {number}")
-    return [page.figure if isinstance(page, Sheet) else page for page in every]
+    marks = [Bookmark("Title page", 0, 1), Bookmark("Contents", 0, 2)]
+    marks += [Bookmark(each.words, each.depth, each.page + len(front) + 1) for each in entries]
+    # A table that has the name of its part stands where that leads already.
+    marks = [mark for k, mark in enumerate(marks) if not k or mark.title != marks[k - 1].title]
+    return [page.figure if isinstance(page, Sheet) else page for page in every], marks
 
 
 def _part_pages(

@@ -31,6 +31,7 @@ from assoc_hull.plot.booklet.parts import (
     hydrostatic_part,
     parts_of,
 )
+from assoc_hull.plot.sheet.pdf_outline import with_outline
 from assoc_hull.plot.sheet.sheet_figure import Path_, pdf_of_figures, require_matplotlib
 from assoc_hull.surface.blocks.fitted_surface import FittedSurface
 from assoc_hull.surface.plating.hull_plates import HullPlateTable
@@ -135,8 +136,9 @@ def _write(
     title: str,
 ) -> None:  # fmt: skip
     if form == ".pdf":
-        pages = book_pages(hull, parts, design, title)
+        pages, marks = book_pages(hull, parts, design, title)
         data = pdf_of_figures(pages, f"{title}: {design.header.ship}", design.header.date)
+        data = with_outline(data, marks)
     else:
         data = book_workbook(parts, design, title)
     write_whole(path, data)

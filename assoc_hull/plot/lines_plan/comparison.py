@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Literal
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.hydrostatics.record import FIELDS
 from assoc_hull.arguments import instance, shown
 from assoc_hull.errors import WrongTypeError
 from assoc_hull.model.tables import HasState, HullState
@@ -33,6 +32,7 @@ from assoc_hull.variation.comparing.comparison import (
     NUMBER_HEAD,
     PRINCIPAL,
     HullComparison,
+    alike_words,
     amount,
     compare,
     counts,
@@ -42,6 +42,8 @@ from assoc_hull.variation.comparing.comparison import (
     number_cells,
     object_words,
     reason_words,
+    that_differ,
+    visibly_moved,
 )
 from assoc_hull.variation.comparing.line_comparison import LineComparison
 from assoc_hull.variation.comparing.number_comparison import NumberComparison
@@ -235,7 +237,7 @@ def _extent(plan: Drawing) -> float:
 def _number(number: NumberComparison) -> tuple[str, str]:
     unit = "" if number.unit == "-" else f" {number.unit}"
     values = f"{amount(number.before, number.digits)} > {amount(number.after, number.digits)}"
-    return FIELDS[number.symbol].symbol, values + unit
+    return number.printed_symbol, values + unit
 
 
 def _line(line: LineComparison) -> tuple[str, str]:
@@ -316,8 +318,8 @@ def comparison_sheets(
     flow.turn()
     _lines(flow, found)
     principal = [found.hydrostatic(name) for name in PRINCIPAL]
-    _numbers(flow, "Hydrostatics", principal)
-    _numbers(flow, "Form parameters that differ", [n for n in found.parameters if not n.is_same])
+    _numbers(flow, "Hydrostatics that differ", principal)
+    _numbers(flow, "Form parameters that differ", found.parameters)
     _words(flow, "Points and features", object_words(found))
     total = len(flow.pages) + 1
     for k, page in enumerate(flow.pages, 2):
@@ -340,7 +342,7 @@ def _begin(found: HullComparison, sheet: Sheet, first: bool) -> float:
 
 def _lines(flow: PageFlow, found: HullComparison) -> None:
     """Tell all lines that moved, the farthest first, and in words what else there is."""
-    moved = found.worst(len(found.lines))
+    moved = visibly_moved(found)
     rows = [_Row(tuple((cell,) for cell in line_cells(line)), _LINE_COLUMNS) for line in moved]
     head = _Row(tuple((cell,) for cell in LINE_HEAD), _LINE_COLUMNS, GREY)
     flow.part("Lines that moved, the farthest first", rows, columns=1, head=head)
@@ -348,18 +350,19 @@ def _lines(flow: PageFlow, found: HullComparison) -> None:
 
 
 def _numbers(flow: PageFlow, title: str, numbers: Sequence[NumberComparison]) -> None:
-    rows = [_Row(_named(flow.sheet, each), _NUMBER_COLUMNS) for each in numbers]
-    symbol, *cells = NUMBER_HEAD
-    head = _Row(tuple((cell,) for cell in (symbol, "", *cells)), _NUMBER_COLUMNS, GREY)
+    differ = that_differ(numbers)
+    rows = [_Row(_named(flow.sheet, each), _NUMBER_COLUMNS) for each in differ]
+    name, symbol, *cells = NUMBER_HEAD
+    head = _Row(tuple((cell,) for cell in (symbol, name, *cells)), _NUMBER_COLUMNS, GREY)
     flow.part(title, rows, columns=1, head=head)
-    reasons = list(reason_words(numbers))
-    if reasons:
-        _words(flow, f"{title}: no value", reasons)
+    remarks = [*reason_words(differ), *alike_words(numbers)]
+    if remarks:
+        _words(flow, f"{title}: remarks", remarks)
 
 
 def _named(sheet: Sheet, number: NumberComparison) -> tuple[tuple[str, ...], ...]:
     """Give the cells of a number, its name in as many lines as it needs."""
-    symbol, *cells = number_cells(number)
+    _, symbol, *cells = number_cells(number)
     name = tuple(wrap_words(sheet, number.title, _NAME, _SMALL))
     return ((symbol,), name, *((cell.replace("-", "−"),) for cell in cells))
 

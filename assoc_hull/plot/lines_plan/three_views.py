@@ -181,6 +181,16 @@ def scale_of_body(breadth: float, height: float, room: tuple[float, float]) -> f
     return max(scale_of(2.0 * breadth, room[0]), scale_of(height, max(room[1], 1.0)))
 
 
+def _outer_ends(lines: Sequence[PlotLine]) -> dict[str, tuple[float, float, float]]:
+    """Give by name the place of each line that is farthest from the centre plane, m."""
+    found = dict[str, tuple[float, float, float]]()
+    for line in lines:
+        if len(line.points):
+            x, y, z = line.points[np.argmax(line.points[:, 1])].tolist()
+            found[line.name] = (x, y, z)
+    return found
+
+
 def _diagonal_reach(drawing: Drawing) -> float:
     """Give the greatest breadth along the diagonals' planes, m."""
     reach = [0.0]
@@ -292,14 +302,23 @@ class Grid:
             )
 
     def _level_labels(self, view: View, side: Side, end: float) -> None:
-        """Label waterlines by name on the left; design waterline and base line on the right."""
+        """Label waterlines by name on the left; design waterline and base line on the right.
+
+        In the body plan diagonals, too, at their outer ends: on the lines sections leave no room.
+        """
         draught = self.drawing.particulars.draught
         marks = [(0.0, "base line"), (draught, "DWL")]
         if side == "left":
             marks = [(line.offset, line.name) for line in self.drawing.of("waterlines")]
-        ends = np.array([(end, view.up(height)) for height, _ in marks]).reshape(-1, 2)
-        off = (2.5 if side == "right" else -2.5) * self.sheet.paper.factor
+        places = [(end, view.up(height)) for height, _ in marks]
         words = [name for _, name in marks]
+        if view.name == "body" and (side == "right") == (1.0 in body_sides(self.drawing)):
+            half = view if side == "right" else view.mirrored()
+            outer = _outer_ends(self.drawing.of("diagonals"))
+            places += [(half.across(y), half.up(z)) for _, y, z in outer.values()]
+            words += list(outer)
+        ends = np.array(places).reshape(-1, 2)
+        off = (2.5 if side == "right" else -2.5) * self.sheet.paper.factor
         name, sparse = f"label/{view.name}/{side}", side == "left" and self._sparse(view)
         label_row(self.sheet, ends, words, side, end + off, sparse=sparse, name=name)
 
@@ -490,7 +509,8 @@ class Views:
         return bool(abs(line.normal[1]) == 1.0)
 
     def _diagonals(self, view: View) -> None:
-        """Draw diagonals in true breadth along their planes, mirrored below."""
+        """Draw diagonals in true breadth along their planes, mirrored below, each with its name."""
+        lettered = list[LabelledLine]()
         for line in self.drawing.of("diagonals"):
             start = line.offset / line.normal[2] if line.normal[2] else 0.0
             pen = pen_of(line, line.name in self.tinted)
@@ -503,7 +523,17 @@ class Views:
             for points in whole:
                 true = points.copy()
                 true[:, 1] = -np.hypot(points[:, 1], points[:, 2] - start)
-                self.sheet.line(view.on_paper(true), pen, name)
+                points_ = view.on_paper(true)
+                self.sheet.line(points_, pen, name)
+                lettered.append(LabelledLine(line.name, points_))
+        start, end = view.across(self.low[0]), view.across(self.high[0])
+        name = "label/half-breadth/diagonals"
+        written = label_lines(self.sheet, lettered, start, end, name=name)
+        deepest = {each.label: each.points[np.argmin(each.points[:, 1])] for each in lettered}
+        left = [label for label in deepest if label not in written]
+        below = view.up(-_diagonal_reach(self.drawing)) - 2.5 * self.sheet.paper.factor
+        ends = np.array([deepest[label] for label in left]).reshape(-1, 2)
+        label_row(self.sheet, ends, left, "below", below, name=name)
 
     def body(self, view: View) -> None:
         """Draw the body plan: aft body on the left, fore body on the right."""

@@ -79,8 +79,8 @@ def hull_map(
     Convex regions are red, developable ones green, saddles blue, by the K0 of the whole hull;
     hatched where |K| lies within a factor of 2 of K0, grey beside borders of blocks, where
     curvature is not settled. The shell expansion has x to the right and girth upward; below it lie
-    profile and bottom, above both ends of the hull. A plate of which the net tells no class has a
-    question mark.
+    profile and bottom, above both ends of the hull. A plate whose class is in doubt has a question
+    mark.
 
     Parameters
     ----------
@@ -192,7 +192,8 @@ class _Scene:
             ends = np.array([plate.range.x, plate.range.girth])
             middle = self._middle(plate.name)
             room = np.where(np.isfinite(ends).all(axis=1), np.ptp(ends, axis=1) * stretch, np.inf)
-            words = plate.name if plate.kind is not None else f"{plate.name}?"
+            sure = plate.kind is not None and not plate.is_doubtful
+            words = plate.name if sure else f"{plate.name}?"
             if view.unit * room.min() < 3.0 * sheet.paper.factor:
                 continue
             place = view.across(middle[0]), view.up(middle[3] * _STRETCH)
@@ -276,7 +277,8 @@ def _block(sheet: Sheet, found: HullPlateTable, title: str) -> float:
     """Write what holds for all plates into the right upper corner; give the lower edge, mm."""
     paper = sheet.paper
     kinds = Counter(
-        plate.kind or ("net too coarse" if plate.too_coarse else "unresolved") for plate in found
+        (plate.kind or "unresolved") + (", in doubt" if plate.is_doubtful else "")
+        for plate in found
     )
     rows = [
         ("Plates", str(len(found))),
@@ -288,7 +290,7 @@ def _block(sheet: Sheet, found: HullPlateTable, title: str) -> float:
     ]
     notes = (
         "x forward from AP, girth from the lowest point of a section, m.",
-        "A question mark: no class is given.",
+        "A question mark: the class is in doubt, or none is given.",
     )
     corner = (paper.width - MARGIN * paper.factor, paper.height - MARGIN * paper.factor)
     return title_block(sheet, corner, _BLOCK * paper.factor, title, rows, notes)

@@ -26,7 +26,6 @@ from assoc_hull.surface.plating.roll_axis import COHERENT, Rulings, roll_axis, r
 
 __all__ = [
     "COARSE",
-    "TOO_COARSE",
     "CurvatureDoubt",
     "HullPlate",
     "PlateNodes",
@@ -214,10 +213,7 @@ def _crossings(
 # The plate.
 
 COARSE = 0.2
-"""A plate of which so much is in doubt has no class."""
-
-TOO_COARSE = "net too coarse for regions"
-"""What is said of it."""
+"""The class of a plate of which so much is in doubt is that of the fitted surface alone."""
 
 
 @attrs.frozen(eq=False)
@@ -255,7 +251,8 @@ class HullPlate(ShownAsText):
         The part outside that, of which another fit tells another region, or a curvature that
         differs by more than the K0 that was asked for.
     kind : {"flat", "cylinder", "saddle", "convex", "mixed"} or None
-        The class; None where the net is too coarse for regions, or too much is unresolved.
+        The class of the fitted surface, in doubt where `is_doubtful`; None where too much is
+        unresolved.
     order : {1, 2, 3} or None
         1 flat, 2 bent one way, 3 bent both ways.
     rollable : bool
@@ -315,9 +312,17 @@ class HullPlate(ShownAsText):
             freeze(self.roll_direction)
 
     @property
-    def too_coarse(self) -> bool:
-        """Whether so much is in doubt that no class is given."""
-        return self.contested + self.changed > COARSE
+    def doubt(self) -> float:
+        """The part of the area of which the region is in doubt: contested and changed parts."""
+        return self.contested + self.changed
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether so much is in doubt (a fifth) that the net does not tell the class for certain.
+
+        It is that of the fitted surface then, the best that is known.
+        """
+        return self.doubt > COARSE
 
     def rulings(self, count: int = 9) -> Rulings:
         """Give the mean direction of rulings in stretches along the plate; see `Plate.rulings`."""
@@ -325,7 +330,9 @@ class HullPlate(ShownAsText):
 
     def __str__(self) -> str:
         """Say in a line what it is."""
-        kind = self.kind or (TOO_COARSE if self.too_coarse else "unresolved")
+        kind = self.kind or "unresolved"
+        if self.is_doubtful:
+            kind += f" (in doubt on {100.0 * self.doubt:.0f} %)"
         axis = "no roll axis" if self.roll_axis is None else f"roll axis {self.roll_axis:.1f} deg"
         return (
             f"{self.name} ({self.range}): {self.length:.2f} x {self.breadth:.2f} m, "
@@ -370,8 +377,7 @@ def judge_plate(
     shares = _shares(tallied, nodes, k0, options.flat_bend(band_breadth))
     contested = _contested(tallied)
     changed = doubt.changed(nodes.gauss, nodes.area, k0, _WIDE, asked)
-    coarse = contested + changed > COARSE
-    kind = None if coarse else _kind(shares, options.share)
+    kind = _kind(shares, options.share)
     rollable = shares.rollable(options.share)
     axis = roll_axis(nodes, axes)
     single = kind != "flat" and axis.coherence >= COHERENT
@@ -389,7 +395,7 @@ def judge_plate(
         largest_radius=radius_of(0.0 if shares.flat > 0.0 else float(there.min())),
         total_curvature=whole, mean_strain=strain * whole / float(nodes.area.sum()),
         largest_strain=strain * float(amount[nodes.area > 0.0].max()),
-        suggestion=_advice(kind, coarse, rollable, single, options),
+        suggestion=_advice(kind, contested + changed, rollable, single, options),
         notes=_notes(wanted.name, tallied, contested, changed, doubt, k0 / asked), nodes=nodes,
     )  # fmt: skip
 
@@ -422,12 +428,13 @@ def _contested(tallied: Tally) -> float:
 
 
 def _advice(
-    kind: str | None, coarse: bool, rollable: bool, single: bool, options: PlateOptions
+    kind: str | None, doubt: float, rollable: bool, single: bool, options: PlateOptions
 ) -> str:
-    """Give the suggestion; none for a plate without a class."""
+    """Give the suggestion, with the doubt where it is large; none for a plate without a class."""
     if kind is None:
-        return TOO_COARSE if coarse else "none: too much of it is unresolved"
-    return options.suggestions[suggestion_key(kind, rollable, single)]
+        return "none: too much of it is unresolved"
+    advice = options.suggestions[suggestion_key(kind, rollable, single)]
+    return f"{advice} (in doubt on {100.0 * doubt:.0f} % of it)" if doubt > COARSE else advice
 
 
 def _notes(
@@ -438,8 +445,9 @@ def _notes(
     if contested + changed > COARSE:
         more = f", other fits change {100.0 * changed:.0f} % more" if changed > _SEEN else ""
         found.append(
-            f"{name}: {TOO_COARSE}: {100.0 * contested:.0f} % of it lies within a factor of 2 of "
-            f"K0{more}; take more lines there, or a larger strain tolerance."
+            f"{name}: its class is that of the fitted surface, in doubt: {100.0 * contested:.0f} % "
+            f"of it lies within a factor of 2 of K0{more}; take more lines there, or a larger "
+            "strain tolerance."
         )
     elif wider > 1.0:
         found.append(

@@ -60,6 +60,15 @@ __all__ = [
 _SEEN = 1e-3
 """m2: slivers below this are not reported."""
 
+
+class _ClassColumn(PlateColumn):
+    """The class, in print with a question mark where it is in doubt."""
+
+    def printed(self, plate: Any) -> str:
+        """Write the class."""
+        return super().printed(plate) + "?" * plate.is_doubtful
+
+
 COLUMNS: tuple[PlateColumn, ...] = (
     PlateColumn("name", "", "plate", "s", attribute_getter("name")),
     PlateColumn("range", "", "", "s", lambda plate: str(plate.range)),
@@ -75,7 +84,7 @@ COLUMNS: tuple[PlateColumn, ...] = (
     PlateColumn("unresolved", "%", "unres.", ".1f", share_getter("unresolved")),
     PlateColumn("contested", "%", "contested", ".1f", lambda plate: 100.0 * plate.contested),
     PlateColumn("changed", "%", "changed", ".1f", lambda plate: 100.0 * plate.changed),
-    PlateColumn("kind", "", "class", "s", attribute_getter("kind")),
+    _ClassColumn("kind", "", "class", "s", attribute_getter("kind")),
     PlateColumn("roll_axis", "deg", "axis", ".1f", attribute_getter("roll_axis")),
     PlateColumn("coherence", "", "coh.", ".2f", attribute_getter("coherence")),
     PlateColumn("least_radius", "m", "R least", ".2f", attribute_getter("least_radius")),

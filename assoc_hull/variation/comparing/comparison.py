@@ -45,6 +45,7 @@ __all__ = [
     "SCHEMA",
     "ComparedHull",
     "HullComparison",
+    "alike_words",
     "amount",
     "compare",
     "comparison_document",
@@ -57,6 +58,8 @@ __all__ = [
     "number_cells",
     "object_words",
     "reason_words",
+    "that_differ",
+    "visibly_moved",
 ]
 
 _WHERE = "in compare"
@@ -137,14 +140,17 @@ class HullComparison(ShownAsText):
         return NamedMapping("line", {each.name: each for each in reversed(self.lines)})[name]
 
     def hydrostatic(self, name: str) -> NumberComparison:
-        """Give a value of the record of hydrostatics by its name.
+        """Give a value of the record of hydrostatics by its name or its symbol: "kmt", "KM_T".
 
         Raises
         ------
         UnknownNameError
             There is none.
         """
-        return NamedMapping("value", {each.symbol: each for each in self.hydrostatics})[name]
+        named = {each.symbol: each for each in self.hydrostatics}
+        # A reader of the table knows the symbol that is printed, and not the name of the field.
+        named |= {each.printed_symbol: each for each in self.hydrostatics}
+        return NamedMapping("value", named)[name]
 
     def parameter(self, symbol: str) -> NumberComparison:
         """Give a form parameter by its symbol.
@@ -302,7 +308,7 @@ LINE_HEAD = (
 """Head of `line_cells`: the largest shift, where it is on the variant, that of the plane alone;
 changes of sign of curvature, ratio of the comb integrals, points that define the line."""
 
-NUMBER_HEAD = ("", "unit", "parent", "variant", "difference", "%")
+NUMBER_HEAD = ("", "symbol", "unit", "parent", "variant", "difference", "%")
 """Head of `number_cells`."""
 
 _LISTED = 10
@@ -339,8 +345,16 @@ def line_cells(line: LineComparison) -> list[str]:
     ]
 
 
+def visibly_moved(found: HullComparison) -> tuple[LineComparison, ...]:
+    """Give the lines whose shift is not printed as 0.0 mm, the farthest first."""
+    return tuple(line for line in found.worst(len(found.lines)) if round(1e3 * line.length, 1))
+
+
 def line_words(found: HullComparison) -> Iterator[str]:
     """Give which lines came, went or were renamed, and the fairness of all together."""
+    hidden = len(found.of("moved")) - len(visibly_moved(found))
+    if hidden:
+        yield f"moved by less than 0.05 mm: {hidden}"
     for what in ("came", "went"):
         names = ", ".join(each.name for each in found.of(what))
         if names:
@@ -362,7 +376,8 @@ def number_cells(number: NumberComparison) -> list[str]:
     """Give the row of a number, below `NUMBER_HEAD`."""
     digits, difference, percent = number.digits, number.difference, number.percent
     return [
-        number.symbol,
+        number.short_title,
+        number.printed_symbol,
         number.unit,
         amount(number.before, digits),
         amount(number.after, digits),
@@ -379,12 +394,26 @@ def amount(value: float | None, digits: int) -> str:
     return "-" if value is None else f"{round(value, digits) + 0.0:.{digits}f}"
 
 
+def that_differ(numbers: Sequence[NumberComparison]) -> list[NumberComparison]:
+    """Give the numbers whose printed digits differ, and those that only one of both has."""
+    return [each for each in numbers if not each.prints_alike]
+
+
+def alike_words(numbers: Sequence[NumberComparison]) -> Iterator[str]:
+    """Give the symbols of values that print alike, whose rows are left out."""
+    alike = [
+        each.printed_symbol for each in numbers if each.prints_alike and each.after is not None
+    ]
+    if alike:
+        yield f"alike in both: {', '.join(alike)}"
+
+
 def reason_words(numbers: Sequence[NumberComparison]) -> Iterator[str]:
     """Give why numbers are missing, each reason once."""
     reasons = dict[str, list[str]]()
     for each in numbers:
         if each.reason is not None:
-            reasons.setdefault(each.reason, []).append(each.symbol)
+            reasons.setdefault(each.reason, []).append(each.printed_symbol)
     yield from (f"{', '.join(symbols)}: {reason}" for reason, symbols in reasons.items())
 
 
@@ -449,7 +478,7 @@ def comparison_text(found: HullComparison, lines: int = 10) -> str:
         _less_fair(found, lines),
         _lines(found, lines),
         _numbers("HYDROSTATICS", [found.hydrostatic(name) for name in PRINCIPAL]),
-        _numbers("FORM PARAMETERS", [each for each in found.parameters if not each.is_same]),
+        _numbers("FORM PARAMETERS", found.parameters),
         ("", *object_words(found)),
     ]
     return "\n".join(chain.from_iterable(parts))
@@ -481,7 +510,7 @@ def _less_fair(found: HullComparison, count: int) -> Iterator[str]:
 
 
 def _lines(found: HullComparison, count: int) -> Iterator[str]:
-    chosen = found.worst(count)
+    chosen = visibly_moved(found)[:count]
     if chosen:
         yield ""
         yield f"LINES, the {len(chosen)} that moved farthest of {len(found.of('moved'))}"
@@ -489,11 +518,14 @@ def _lines(found: HullComparison, count: int) -> Iterator[str]:
 
 
 def _numbers(title: str, numbers: Sequence[NumberComparison]) -> Iterator[str]:
-    if numbers:
+    differ, alike = that_differ(numbers), list(alike_words(numbers))
+    if differ or alike:
         yield ""
         yield title
-        yield from _laid_out([NUMBER_HEAD, *map(number_cells, numbers)], "<<>>>>")
-        yield from reason_words(numbers)
+    if differ:
+        yield from _laid_out([NUMBER_HEAD, *map(number_cells, differ)], "<<<>>>>")
+        yield from reason_words(differ)
+    yield from alike
 
 
 def _laid_out(rows: Iterable[Sequence[str]], sides: str) -> Iterator[str]:

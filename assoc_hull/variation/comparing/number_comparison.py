@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 import attrs
@@ -19,6 +20,9 @@ __all__ = ["NumberComparison", "Numbers", "compare_numbers", "numbers_of"]
 
 _LOADED = ("gmt", "gml")
 """Of a hull whose centre of gravity is known; so they are not compared."""
+
+_TITLE = 60
+"""Letters of a title on a line of a terminal; of a longer one the first clause is printed."""
 
 
 @attrs.frozen
@@ -47,6 +51,17 @@ class NumberComparison:
     reason: str | None = None
 
     @property
+    def printed_symbol(self) -> str:
+        """The symbol that naval architects use: "KM_T" of the record's field `kmt`."""
+        return FIELDS[self.symbol].symbol if self.symbol in FIELDS else self.symbol
+
+    @property
+    def short_title(self) -> str:
+        """The title without what explains it, where it is too long for a line of a terminal."""
+        words = re.split("[:;]", self.title)[0]
+        return words if len(words) <= _TITLE else words.split(",")[0]
+
+    @property
     def difference(self) -> float | None:
         """Variant less parent, in the unit; None where one is missing."""
         if self.before is None or self.after is None:
@@ -57,7 +72,7 @@ class NumberComparison:
     def percent(self) -> float | None:
         """The difference in percent of the parent's value.
 
-        None if that is missing, or nil in its printed digits: then it is nothing but rounding.
+        None if that is missing, or zero in its printed digits: then it is only rounding.
         """
         if self.difference is None or self.before is None or not self._printed(self.before):
             return None
@@ -69,6 +84,11 @@ class NumberComparison:
         if self.before is None or self.after is None:
             return self.before is self.after
         return self._printed(self.before) == self._printed(self.after)
+
+    @property
+    def prints_alike(self) -> bool:
+        """Tell whether a row of it would say nothing: the same digits, or a difference of 0."""
+        return self.is_same or (self.difference is not None and not self._printed(self.difference))
 
     def _printed(self, value: float) -> float:
         return round(value, self.digits)

@@ -206,7 +206,7 @@ def test_a_graph_of_nothing_is_told(hull: Path, capsys: pytest.CaptureFixture[st
         (["--only", "both"], "two-way"),
         (["--around", "WL 77"], "WL 5"),
         (["--only", "changed"], "history of 0"),
-        (["--edit", "1"], "make an edit first"),
+        (["--step", "1"], "make an edit first"),
         (["--around", "WL 2.5", "--hops", "-1"], "0 or more"),
         (["--json", "--format", "dot"], "not allowed"),
     ],

@@ -178,7 +178,7 @@ def test_why_is_answered_from_the_file(twice: Path, facts: Json) -> None:
 def test_only_what_an_edit_changed_is_drawn(twice: Path, facts: Json) -> None:
     """The graph of the last edit, and of an earlier one."""
     for number in ("1", "2"):
-        found = facts("graph", twice, "--only", "changed", "--edit", number)
+        found = facts("graph", twice, "--only", "changed", "--step", number)
         names = {node.get("name") for node in found["nodes"]}
         assert {"WL 2.5", "ST 7"} <= names
         assert "ST 8" not in names

@@ -150,13 +150,13 @@ def test_steps_have_one_number_everywhere(wigley: Hull) -> None:
     assert wigley.why("ST 7").step == 3
     assert wigley.why("ST 7", step=1).edit == "to 2.93"
     assert wigley.why("ST 7", step=-1) == wigley.why("ST 7")
-    assert set(wigley.graph(edit=3)) == set(wigley.graph(edit=-1))
+    assert set(wigley.graph(step=3)) == set(wigley.graph(step=-1))
     away = wigley.why("ST 3", step=3)
     assert (away.edit, away.step, away.what) == ("to 2.95", 3, "not reached by this edit")
     with pytest.raises(BadInputError, match="give one of 1, 3"):
         wigley.why("ST 7", step=2)
     with pytest.raises(BadInputError, match="give one of 1, 3"):
-        wigley.graph(edit=2)
+        wigley.graph(step=2)
 
 
 def test_why_of_a_pull_begins_with_it_and_leaves_out_what_hardly_moved(wigley: Hull) -> None:

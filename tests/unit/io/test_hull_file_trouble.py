@@ -318,3 +318,63 @@ def test_an_undo_that_leads_elsewhere_is_taken_back(file: Path) -> None:
     hull.redo(2)
     assert hull.fingerprint == before
     assert hull.verify() == ()
+
+
+def left_log(source: Path, target: Path) -> None:
+    """Lay the log of a hull in use beside another file, as a careless copy does."""
+    hull = ah.open(source)
+    shift(hull, "three")
+    shutil.copy(f"{source}-wal", f"{target}-wal")
+    hull.close()
+
+
+def test_the_log_of_another_hull_is_named_and_nothing_is_written(
+    file: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """It is told from the log of this one, which is read as ever; moved away, the hull opens."""
+    other = tmp_path / "other.hull"
+    with contextlib.closing(ah.examples.wigley(stations=7, waterlines=5, breadth=11.0)) as hull:
+        hull.save(other)
+    left_log(other, file)
+    log = file.with_name("ship.hull-wal")
+    before = file.read_bytes(), log.read_bytes()
+    with pytest.raises(DamagedFileError, match=r"ship\.hull-wal, is that of another hull"):
+        ah.open(file)
+    assert main(["info", str(file)]) == 2
+    assert "is that of another hull" in capfd.readouterr().err
+    assert (file.read_bytes(), log.read_bytes()) == before
+    log.unlink()
+    with contextlib.closing(ah.open(file)) as hull:
+        assert len(hull.history) == 2
+
+
+def test_a_log_of_its_own_is_read(file: Path, tmp_path: Path) -> None:
+    """That which a process left when it was killed, here copied together with its file."""
+    copy = tmp_path / "copy.hull"
+    hull = ah.open(file)
+    shift(hull, "three")
+    shutil.copy(file, copy)
+    shutil.copy(f"{file}-wal", f"{copy}-wal")
+    hull.close()
+    with contextlib.closing(ah.open(copy)) as hull:
+        assert [each.name for each in hull.history] == ["one", "two", "three"]
+
+
+def test_a_log_in_a_folder_that_may_only_be_read_is_named(file: Path, tmp_path: Path) -> None:
+    """The last edits are in the log: the message says so, and no older state is shown."""
+    folder = tmp_path / "closed"
+    folder.mkdir()
+    hull = ah.open(file)
+    shift(hull, "three")
+    shutil.copy(file, folder / "ship.hull")
+    shutil.copy(f"{file}-wal", folder / "ship.hull-wal")
+    hull.close()
+    let_in(folder)
+    for each in folder.iterdir():
+        each.chmod(0o444)
+    folder.chmod(0o555)
+    with as_nobody(), pytest.raises(HullFileError) as caught:
+        ah.open(folder / "ship.hull")
+    assert "the log beside it, ship.hull-wal, in a read-only folder" in str(caught.value)
+    assert "copy both files" in str(caught.value)
+    folder.chmod(0o755)

@@ -35,7 +35,7 @@ def words_of(hull: ah.Hull, *names: str, kg: float | None = None) -> list[str]:
         names, (3.0, 4.0, 5.0), 4.0, kg, (), 1.025, 1.0, (), "refuse", None, None, None, None
     )
     parts, design = parts_of(hull, asked)
-    pages = book_pages(hull, parts, design, "Hull report")
+    pages, _ = book_pages(hull, parts, design, "Hull report")
     return [
         " ".join(text.get_text() for text in [*page.texts, *page.axes[0].texts]) for page in pages
     ]
@@ -159,3 +159,27 @@ def test_the_command_writes_chosen_parts_and_hydrostatics_alone(
     assert alone.read_bytes()[:5] == b"%PDF-"
     assert main(["report", str(ship), str(out), "--parts", "plates"]) == 2
     assert "--butts" in capsys.readouterr().err
+
+
+def test_bookmarks_lead_to_the_pages_of_the_contents(hull: ah.Hull, tmp_path: Path) -> None:
+    """Each part stands in the outline, its tables and pictures below it; no page is changed."""
+    path = tmp_path / "ship.pdf"
+    hull.report(path, parts=["hydrostatics", "areas"], draughts=(3.0, 4.0, 5.0), draught=4.0)
+    data = path.read_bytes()
+    titles = [
+        bytes.fromhex(each.decode())[2:].decode("utf-16-be")
+        for each in re.findall(rb"/Title <([0-9a-f]+)>", data)
+    ]
+    assert titles[:2] == ["Title page", "Contents"]
+    parts = [part.title for part in made(hull, "hydrostatics", "areas")]
+    assert [title for title in titles if title in parts] == parts
+    # Where the table of places says it is, each object begins.
+    update = data[data.rindex(b"\nxref\n") :]
+    for number, place in re.findall(rb"(\d+) 1\n(\d{10}) 00000 n \n", update):
+        assert data[int(place) :].startswith(b"%s 0 obj\n" % number)
+    root = re.findall(rb"/Outlines (\d+) 0 R", data)
+    assert len(root) == 1
+    targets = {int(each) for each in re.findall(rb"/Dest \[(\d+) 0 R /Fit\]", data)}
+    kids = re.search(rb"/Kids \[(.*?)\]", data, re.DOTALL)
+    assert kids is not None
+    assert targets <= {int(each) for each in re.findall(rb"(\d+) 0 R", kids[1])}

@@ -12,7 +12,7 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.hull.results import HullPlates as WritablePlates
-from assoc_hull.surface.plating.hull_plate import TOO_COARSE, CurvatureDoubt, doubled_band
+from assoc_hull.surface.plating.hull_plate import CurvatureDoubt, doubled_band
 from assoc_hull.surface.plating.hull_plates import HullPlateTable, hull_plates
 from assoc_hull.surface.plating.hull_seams import HullSeams
 from assoc_hull.surface.plating.hull_shell import HullShell
@@ -155,15 +155,21 @@ def test_corners_with_tangent_sides_are_unresolved() -> None:
     assert np.flatnonzero(shell.margin).tolist() == [0]
 
 
-def test_a_plate_about_the_limit_has_no_class() -> None:
-    """With K between K0/2 and 2 K0 nearly everywhere, on any net."""
+def test_a_plate_about_the_limit_has_the_class_of_the_surface_in_doubt() -> None:
+    """With K between K0/2 and 2 K0 nearly everywhere, on any net: the best known, and its doubt."""
     found = plates_of(BOWL, HullSeams(x=(-2.0, 2.0), z=(-1.0, 1.0), inside=True), k0=7.5e-3)
     (plate,) = found
     assert plate.contested == pytest.approx(1.0, abs=1e-6)
-    assert plate.too_coarse
-    assert (plate.kind, plate.order, plate.suggestion) == (None, None, TOO_COARSE)
-    assert TOO_COARSE in plate.notes[0]
-    assert TOO_COARSE in str(plate)
+    assert plate.is_doubtful
+    assert plate.doubt == plate.contested + plate.changed
+    clear = plates_of(BOWL, HullSeams(x=(-2.0, 2.0), z=(-1.0, 1.0), inside=True), k0=1e-4)[0]
+    assert (clear.is_doubtful, clear.kind) == (False, "convex")
+    assert plate.kind is not None
+    assert plate.order is not None
+    assert plate.suggestion.endswith("(in doubt on 100 % of it)")
+    assert "class is that of the fitted surface, in doubt: 100 %" in plate.notes[0]
+    assert f"{plate.kind} (in doubt on 100 %)" in str(plate)
+    assert f" {plate.kind}? " in str(found)
 
 
 def test_fits_that_disagree_widen_the_band() -> None:

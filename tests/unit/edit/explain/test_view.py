@@ -194,12 +194,12 @@ def move(document: Document, address: str = "WL 2.5 x ST 7") -> int:
 def test_only_what_an_edit_changed(document: Document) -> None:
     """The point that was moved and its two curves; the last edit where none is named."""
     row = move(document)
-    found = graph_of(document, edit=-1)
+    found = graph_of(document, step=-1)
     points = {point_id(document.state, row, side) for side in (0, 1)}
     assert set(found) == points | {"sections:35.000000/1", "waterlines:2.500000/1"}
     assert changed_by(document, 1) == changed_by(document, -1)
     move(document, "WL 5 x ST 15")
-    assert set(graph_of(document, only="changed", edit=1)) == set(found)
+    assert set(graph_of(document, only="changed", step=1)) == set(found)
     assert not set(graph_of(document, only="changed")) & set(found)
     with pytest.raises(BadInputError, match="from 1 to 2"):
         changed_by(document, 3)

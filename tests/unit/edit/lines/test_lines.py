@@ -32,8 +32,9 @@ def test_a_new_line_is_cut_from_the_hull(hull: ah.Hull, group: str, position: fl
     before = {line.id: line.curves[0].polyline(12) for line in hull.lines.values()}
     with hull.edit("add") as edit:
         line = edit.add_line(group, position)
+    # Sections count stations, waterlines and buttocks metres.
     assert (
-        line.name == f"{dict(waterlines='WL', sections='ST', buttocks='BTK')[group]} {position:g}"
+        line.name == {"waterlines": "WL 4.1", "sections": "ST 2.515", "buttocks": "BTK 2.6"}[group]
     )
     assert list(trouble(hull)) == []
     assert list(lost_meetings(hull)) == []
@@ -156,3 +157,13 @@ def test_every_line_can_go_but_the_last(hull: ah.Hull) -> None:
     assert len(hull.lines) == 2
     hull.undo(len(names))
     assert len(hull.lines) == len(names) + 2
+
+
+def test_a_line_without_a_name_is_called_in_the_measure_of_its_group() -> None:
+    """Waterlines in draughts, sections in stations, buttocks in half-breadths: one on a plan."""
+    hull = ah.examples.series60(cb=0.70)
+    with hull.edit("add") as edit:
+        given = [("waterlines", 3.33), ("sections", 33.0), ("sections", 33.0005), ("buttocks", 2.5)]
+        names = [edit.add_line(group, place).name for group, place in given]
+    assert names == ["WL 0.478", "ST 5.413", "ST 5.4135", "BTK 0.287"]
+    assert hull["WL 0.478"].plane.offset == 3.33

@@ -140,3 +140,12 @@ def test_driven_crossings_of_series_60_come_where_they_are_pulled(series60_70: a
         hull.undo()
         done += 1
     assert done >= 15
+
+
+def test_a_pull_on_a_flat_is_refused_by_the_name_that_was_given(series60_70: ah.Hull) -> None:
+    """No key of the tables: the crossing as a person calls it, and what to do."""
+    with pytest.raises(ah.errors.PointRoleError) as caught, series60_70.edit("on the flat") as edit:
+        edit.pull("WL 1 x ST 10", d=0.05, radius=(20.0, 8.0))
+    assert str(caught.value).startswith("WL 1 x ST 10 is on a flat")
+    assert "across_flats=True" in str(caught.value)
+    assert ":" not in str(caught.value)

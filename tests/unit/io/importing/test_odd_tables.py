@@ -127,3 +127,20 @@ def test_a_scale_of_nothing_is_refused(tmp_path: Path) -> None:
     path.write_text(down())
     with pytest.raises(BadInputError, match="scale is 0, as an argument; give a number above 0"):
         ah.read(path, length=L, draught=4.5, scale=0)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"draught": 40.0}, {"draught": 4.0, "depth": 30.0},
+     {"draught": 4.0, "ap": 10, "length": 10.0, "fp": 500},
+     {"draught": 4.0, "base": 30}, {"draught": 4.0, "ap": 500}],
+    ids=["draught", "depth", "length", "base line", "perpendicular"],
+)  # fmt: skip
+def test_dimensions_that_do_not_fit_a_table_name_its_file(
+    options: dict[str, float], tmp_path: Path
+) -> None:
+    """Of ten tables read in a loop, the message says which."""
+    path = tmp_path / "ferry.csv"
+    path.write_text(down())
+    with pytest.raises(BadInputError, match=r"in the table ferry\.csv; "):
+        ah.read(path, **{"length": L, **options})  # type: ignore[arg-type]

@@ -84,7 +84,7 @@ def test_every_line_and_number_stands_there_once(
     for line in found.of("moved"):
         assert cells.count(line.name) == 1
     for number in found.parameters:
-        if not number.is_same and number.difference is not None:
+        if not number.prints_alike and number.difference is not None:
             assert cells.count(number.symbol) >= 1
             told = f"{number.difference:+.{number.digits}f}".replace("-", "−")
             assert told in cells

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from assoc_hull.errors import BadInputError, MissingExtraError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
+from assoc_hull.hull.sources import examples
 from assoc_hull.plot.lines_plan.drawing import Drawing, drawing
 from assoc_hull.plot.lines_plan.plan import lines_plan
 from assoc_hull.plot.lines_plan.three_views import lay_out_views
@@ -216,3 +217,25 @@ def test_without_matplotlib_the_extra_is_named(
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     with pytest.raises(MissingExtraError, match=r"assoc-hull\[plot\]"):
         sheet.Sheet("A3")
+
+
+@pytest.mark.parametrize("paper", ["A3", "A4"])
+def test_diagonals_are_named_counted_and_within_the_frame(
+    paper: str, lines_of: Lines, boxes_of: Boxes
+) -> None:
+    """Each has its name at its outer end in the body plan, and on or below its true breadth."""
+    hull = examples.wigley(stations=9, waterlines=5)
+    places = [(6.0, 35.0), (4.0, 35.0), *((8.0, 35.0 + 2.0 * k) for k in range(5))]
+    with hull.edit("diagonals") as edit:
+        names = [edit.add_line("diagonals", place).name for place in places]
+    figure = lines_plan(hull, paper=paper)  # type: ignore[arg-type]
+    boxes, size = boxes_of(figure), PAPERS[paper]
+    for line in names:
+        for row in ("body/right", "half-breadth/diagonals"):
+            assert any(name.startswith(f"label/{row}/{line} ") for name in boxes)
+    assert any("7 diagonals" in name for name in boxes)
+    corners = np.concatenate([box.reshape(2, 2) for box in boxes.values()])
+    drawn = np.concatenate([corners, *lines_of(figure, "(half-breadth|body)/diagonals/")])
+    inside = 8.0 * size.factor
+    assert (drawn > inside).all()
+    assert (drawn < [size.width - inside, size.height - inside]).all()

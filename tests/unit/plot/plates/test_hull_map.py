@@ -28,7 +28,7 @@ def plates() -> HullPlateTable:
 
 
 def test_every_view_has_tiles_lines_and_plates_their_names(plates: HullPlateTable) -> None:
-    """Also hatching where curvature is contested; a plate without a class has a question mark."""
+    """Also hatching where curvature is contested; a plate in doubt has a question mark."""
     figure = hull_map(plates)
     drawn = figure.axes[0]
     ids = {each.get_gid() for each in (*drawn.collections, *drawn.patches)}
@@ -37,8 +37,8 @@ def test_every_view_has_tiles_lines_and_plates_their_names(plates: HullPlateTabl
     assert "expansion/contested" in ids
     words = {text.get_text() for text in drawn.texts}
     for plate in plates:
-        assert (plate.name if plate.kind else f"{plate.name}?") in words
-    assert any(plate.kind is None for plate in plates)
+        assert (f"{plate.name}?" if plate.is_doubtful or not plate.kind else plate.name) in words
+    assert any(plate.is_doubtful or plate.kind is None for plate in plates)
 
 
 def test_the_ending_of_the_name_chooses_the_picture(plates: HullPlateTable, tmp_path: Path) -> None:

@@ -208,10 +208,36 @@ def test_the_text_tells_what_differs(found: HullComparison, other: HullCompariso
     """Lines that moved farthest, numbers, what went; long lists of points are cut."""
     rows = {row.split("  ")[0]: row.split() for row in str(found).splitlines()}
     assert rows["WL 6.25"][2:4] == ["500.0", "out"]
-    assert rows["volume"][1:] == ["m3", "2777.45", "3055.19", "+277.75", "+10.000"]
+    volume = ["∇", "m3", "2777.45", "3055.19", "+277.75", "+10.000"]
+    assert rows["displacement volume, moulded, with appendages"][-6:] == volume
     assert "lines: 1 same, 30 moved, 0 came, 0 went" in str(found)
     assert "went: ST 10, ST 11" in str(other)
     assert f" and {len(other.points.went) - 10} more" in str(other)
+
+
+def test_rows_that_print_alike_are_left_out_by_name(parent: ah.Hull, found: HullComparison) -> None:
+    """A row stands in the text if its printed digits differ; the others are symbols in a line."""
+    text = str(found).splitlines()
+    assert not any(row.split()[-2:] == ["+0.0000", "+0.000"] for row in text if row)
+    alike, _ = (row for row in text if row.startswith("alike in both: "))
+    assert alike.split(": ")[1].split(", ") == ["LCB", "LCB%", "KB", "KM_L", "LCF", "L_WL", "C_B",
+                                                "C_M", "C_P", "C_W"]  # fmt: skip
+    assert found.hydrostatic("KM_T") is found.hydrostatic("kmt")
+    same = str(parent.compare(parent))
+    assert "difference" not in same
+
+
+def test_a_shift_that_prints_as_nothing_is_counted_and_not_listed(parent: ah.Hull) -> None:
+    """Lines that moved by less than 0.05 mm are one number."""
+    with taken_back(ah.examples.wigley()) as hull:
+        with hull.edit("a hair") as edit:
+            edit.move("WL 2.5 x ST 7", y=hull["WL 2.5 x ST 7"].y + 2e-5)
+        found = parent.compare(hull)
+        text = str(found)
+    moved = len(found.of("moved"))
+    assert moved > 0
+    assert f"moved by less than 0.05 mm: {moved}" in text
+    assert "shift mm" not in text
 
 
 def test_the_draught_is_as_asked(parent: ah.Hull, broader: ah.Hull) -> None:
