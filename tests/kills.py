@@ -21,6 +21,7 @@ from pathlib import Path
 import attrs
 
 import assoc_hull as ah
+from assoc_hull.edit.session import Edit
 from assoc_hull.io.hull_file.storage import HullFile
 from assoc_hull.model.definition.hash_tree import root_of
 
@@ -28,6 +29,9 @@ __all__ = ["Tally", "run"]
 
 _PER_FILE = 50
 """After so many kills a fresh file is taken."""
+
+_EDITS = ("move", "line", "switch", "lead")
+"""Acts that each make one step."""
 
 _LONGEST = 0.25
 """The child lives so long (s) at most once it has opened the file."""
@@ -70,13 +74,13 @@ def make(path: Path) -> None:
 
 
 def child(path: Path, seed: int, pipe: int) -> None:
-    """Edit for ever: move points, add and remove lines, undo, redo, name states, reopen."""
+    """Edit for ever: move points, lead and switch lines, add and remove some, undo, reopen ..."""
     rng = random.Random(seed)
     _say_when_inside(pipe)
     hull = ah.open(path)
     os.write(pipe, b"ready\n")
     while True:
-        acts = ["move"] * 6 + ["line", "name", "reopen"]
+        acts = ["move"] * 6 + ["line", "switch", "lead", "name", "reopen"]
         acts += ["undo"] if hull.document.history else []
         acts += ["redo"] if hull.document.undone else []
         act = rng.choice(acts)
@@ -85,7 +89,10 @@ def child(path: Path, seed: int, pipe: int) -> None:
             hull.close()
             hull = ah.open(path)
         else:
-            _perform(hull, act, rng)
+            try:
+                _perform(hull, act, rng)
+            except (ah.errors.RefusedEditError, ah.errors.PointRoleError):
+                act = "refused"  # a point is driven since a switch, or a lead would fold
         told = f"did {act} {hull.document.head} {hull.fingerprint} {root_of(hull.state)}\n"
         os.write(pipe, told.encode())
 
@@ -113,11 +120,32 @@ def _perform(hull: ah.Hull, act: str, rng: random.Random) -> None:
                 edit.remove_line(extra[0])
             else:
                 edit.add_line("waterlines", rng.uniform(1.0, 5.0), f"extra {rng.random():.12f}")
+    elif act == "switch":
+        with hull.edit("a switch", gaps="report") as edit:
+            _switch(edit, hull, rng)
+    elif act == "lead":
+        with hull.edit("a lead", gaps="report") as edit:
+            x, y, z = hull.lines["WL 1.5625"].curves[0].at(rng.uniform(30.0, 70.0))
+            edit.lead("WL 1.5625", [(x, y + rng.choice((-0.005, 0.005)), z)])
     else:
         names = [f"WL {z} x ST {n}" for z in ("3.125", "4.6875") for n in (2, 3, 4)]
         point = hull.points[rng.choice(names)]
         with hull.edit("a move") as edit:
             edit.move(point, y=point.y + rng.uniform(-0.01, 0.01))
+
+
+def _switch(edit: Edit, hull: ah.Hull, rng: random.Random) -> None:
+    """Say who rules where, part two groups and join them, or make or change a group."""
+    cut, which = rng.uniform(20.0, 80.0), rng.randrange(3)
+    if which == 0:
+        edit.rule("waterlines", "sections", [("waterlines", {"x": (None, cut)})])
+    elif which == 1:
+        edit.dissociate("waterlines", "sections")
+        edit.associate("waterlines", "sections")
+    elif "own" in hull.groups:
+        edit.regroup("own", rng.sample(["ST 1", "ST 2", "ST 3"], 2))
+    else:
+        edit.group("own", ["ST 1"])
 
 
 def kill_one(path: Path, rng: random.Random) -> tuple[list[Word], str, bool]:
@@ -155,7 +183,7 @@ def judge(path: Path, done: list[Word], began: tuple[int, str], act: str, tally:
     hull = ah.open(path)
     steps = hull.document.steps
     for word in done:
-        if word.act in ("move", "line"):
+        if word.act in _EDITS:
             tally.reported += 1
             step = steps.get(word.head)
             same = step is not None and step.fingerprint == word.root
@@ -175,7 +203,7 @@ def judge(path: Path, done: list[Word], began: tuple[int, str], act: str, tally:
 def _one_further(hull: ah.Hull, head: int, act: str) -> bool:
     """Tell whether the hull stands where the act that was cut short would have left it."""
     document = hull.document
-    if act in ("move", "line"):
+    if act in _EDITS:
         return document.head > head and document.steps[document.head].parent == head
     if act == "undo":
         return head > 0 and document.steps[head].parent == document.head

@@ -23,7 +23,7 @@ from assoc_hull.edit.session import Edit
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
-from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.kinds import OWN, BoundaryKind
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.objects import Curve, Line, Point
 from tests.strategies import Form, Net, net_of, wigley_sources
@@ -58,7 +58,8 @@ SHAPES = (
 )  # fmt: skip
 STRUCTURE = (
     "add_line", "remove_line", "shift_line", "set_role", "set_role", "renew_roles", "pin", "unpin",
-    "associate", "straighten", "round", "spread", "knuckle_line",
+    "associate", "rejoin", "rule", "rule", "group", "regroup", "ungroup", "straighten", "round",
+    "spread", "knuckle_line",
 )  # fmt: skip
 Item = TypeVar("Item")
 _ROLES = ("shared", "drives a", "drives b", "watched")
@@ -295,10 +296,29 @@ def _insert(hull: ah.Hull, edit: Edit, act: Act) -> None:
 
 
 def _lead(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    """Lead a line through a place, a point of it, or by what leads unless it is said otherwise."""
+    if act.other % 4 == 0:
+        point = _pick(live_points(hull, "crossing", "placed", "adopted"), act.which)
+        assert point is not None
+        shift = [act.amount * (axis in point.free) for axis in "xyz"]
+        edit.lead(point.container_curve, [(point, point.position + shift)])
+        return
+    if act.other % 4 == 1:
+        own = _pick(
+            [each for each in live_points(hull, "placed", "adopted") if each.free], act.which
+        )
+        if own is not None:
+            to = {own.free[0]: float(getattr(own, own.free[0])) + act.amount}
+            edit.move(own, lead=True, **to)
+        return
     curve = _pick(_curves(hull), act.which)
     assert curve is not None
     place = curve.at((0.1 + 0.8 * (act.other % 100) / 100.0) * curve.span)
-    edit.lead(curve, [place + act.amount * _free_way(curve)])
+    place = place + act.amount * _free_way(curve)
+    if act.other % 4 == 2:
+        edit.insert(curve, place)
+    else:
+        edit.lead(curve, [place])
 
 
 def _delete(hull: ah.Hull, edit: Edit, act: Act) -> None:
@@ -325,7 +345,7 @@ def _set_kind(hull: ah.Hull, edit: Edit, act: Act) -> None:
 
 
 def _add_line(hull: ah.Hull, edit: Edit, act: Act) -> None:
-    names = [name for name in hull.groups if name != "boundary"]
+    names = [name for name in _families(hull) if name != "boundary"]
     group, size = names[act.which % len(names)], hull.particulars
     part = 0.05 + 0.9 * (act.other % 997) / 997.0
     reach = {"sections": size.length, "waterlines": size.draught, "buttocks": 0.5 * size.breadth}
@@ -368,18 +388,83 @@ def _renew_roles(hull: ah.Hull, edit: Edit, act: Act) -> None:
         edit.renew_roles([line])
 
 
+def _pair(hull: ah.Hull, which: int) -> tuple[str, str]:
+    """Give two groups of families, associated or not any more."""
+    names = sorted(name for name in _families(hull) if name != "boundary")
+    pair = _pick([(a, b) for a in names for b in names if a < b], which)
+    assert pair is not None
+    return pair
+
+
+def _families(hull: ah.Hull) -> list[str]:
+    return [name for name, group in hull.groups.items() if group.family != OWN]
+
+
+def _own(hull: ah.Hull) -> list[str]:
+    return sorted(name for name, group in hull.groups.items() if group.family == OWN)
+
+
 def _associate(hull: ah.Hull, edit: Edit, act: Act) -> None:
-    links = [link for link in hull.state.associations if link.a != "boundary"]
-    link = _pick(links, act.which)
-    if link is None:
-        return
+    a, b = _pair(hull, act.which)
     way = act.other % 4
     if way == 0:
-        edit.dissociate(link.a, link.b)
+        edit.dissociate(a, b)
     elif way == 3:
-        edit.associate(link.b, link.a, two_way=False)
+        edit.associate(b, a, two_way=False)
     else:
-        edit.associate(link.a, link.b, two_way=way == 1)
+        edit.associate(a, b, two_way=way == 1)
+
+
+def _rejoin(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    a, b = _pair(hull, act.which)
+    edit.dissociate(a, b)
+    edit.associate(*((a, b) if act.other % 2 else (b, a)), two_way=act.other % 3 == 0)
+
+
+def _rule(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    """Say who rules where: by a cut along an axis, everywhere, or nothing any more."""
+    pair = list(_pair(hull, act.which))
+    own = _pick(_own(hull), act.other)
+    if own is not None and act.other % 3 == 0:
+        pair[act.other % 2] = own
+    if act.other % 5 == 0:
+        line = _pick(list(hull.groups[pair[0]].lines), act.other)
+        pair[0] = pair[0] if line is None else line
+    size = hull.particulars
+    axis, long = (("x", size.length), ("y", 0.5 * size.breadth), ("z", size.draught))[act.which % 3]
+    cut = (0.1 + 0.8 * (act.other % 89) / 89.0) * long
+    first, second = ((None, pair[0]), (pair[0], pair[1]), (pair[1], None))[act.other % 3]
+    boxes: tuple[list[tuple[str | None, dict[str, tuple[float | None, float | None]]]], ...] = (
+        [],
+        [(pair[act.which % 2], {})],
+        [(first, {axis: (None, cut)}), (second, {axis: (cut, None)})],
+        [(first, {axis: (None, cut)})],
+    )
+    edit.rule(pair[0], pair[1], boxes[act.other % 7 % 4])
+
+
+def _members(hull: ah.Hull, act: Act) -> list[str]:
+    """Name two lines of any families, and a group of one's own where there is one."""
+    lines = [line.name for line in _lines(hull)]
+    own = _pick(_own(hull), act.which)
+    chosen = {lines[act.which % len(lines)], lines[act.other % len(lines)]}
+    return sorted(chosen | ({own} if own is not None and act.other % 2 else set[str]()))
+
+
+def _group(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    edit.group(f"set {act.which % 5}", _members(hull, act))
+
+
+def _regroup(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    name = _pick(_own(hull), act.other)
+    if name is not None:
+        edit.regroup(name, _members(hull, act))
+
+
+def _ungroup(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    name = _pick(_own(hull), act.which)
+    if name is not None:
+        edit.ungroup(name)
 
 
 _OPERATIONS = {
@@ -404,6 +489,11 @@ _OPERATIONS = {
     "spread": _spread,
     "knuckle_line": _knuckle_line,
     "associate": _associate,
+    "rejoin": _rejoin,
+    "rule": _rule,
+    "group": _group,
+    "regroup": _regroup,
+    "ungroup": _ungroup,
 }
 
 

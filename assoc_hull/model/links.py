@@ -16,6 +16,7 @@ from assoc_hull.model.tables import HullState, Ruling
 __all__ = [
     "PointsOnCurve",
     "crossing_ways",
+    "crossings_between",
     "defines",
     "free_axes",
     "generates",
@@ -59,6 +60,16 @@ def crossing_ways(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool
     found = np.array(known, np.bool_).reshape(-1, 2)[which.reshape(-1)]
     if state.rulings and len(rows):
         _rule(state, lines, point_positions(state, rows, np.zeros(len(rows), np.int64)), found)
+    return found
+
+
+def crossings_between(state: HullState, a: IntArray, b: IntArray) -> IntArray:
+    """Give the crossings of lines with others, (k,)."""
+    table = state.rows
+    rows = np.flatnonzero(table.alive.data & (table.sort.data == Sort.CROSSING))
+    one, other = state.curves.line[table.curve[rows]].reshape(-1, 2).T
+    ahead = np.isin(one, a) & np.isin(other, b)
+    found: IntArray = rows[ahead | (np.isin(one, b) & np.isin(other, a))]
     return found
 
 

@@ -108,6 +108,10 @@ def _move(heard: Named, points: ah.Point | list[ah.Point]) -> None:
     heard.points |= {point.id for point in every}
 
 
+def _lead(heard: Named, _: object, points: list[object]) -> None:
+    _move(heard, [each[0] for each in points if isinstance(each, tuple)])
+
+
 def _run(heard: Named, curve: ah.Curve, *_: object) -> None:
     """A run makes tangent points, may take knuckles away, and gives an end its direction."""
     heard.kinds |= {(point.id, curve.id) for point in curve.defining}
@@ -134,6 +138,7 @@ def _smooth(heard: Named, line: ah.Line) -> None:
 Note = Callable[..., None]
 _NOTES: dict[str, Note] = {
     "move": _move,
+    "lead": _lead,
     "straighten": _run,
     "round": _run,
     "knuckle_line": _knuckles,
@@ -209,7 +214,7 @@ def _gone(hull: ah.Hull) -> set[object]:
 
 GIVES_ROLES = {
     "set_role", "renew_roles", "associate", "dissociate", "shift_line", "straighten", "round",
-    "knuckle_line",
+    "knuckle_line", "rule", "rejoin", "regroup", "ungroup",
 }  # fmt: skip
 
 

@@ -106,6 +106,55 @@ def test_there_and_back_is_exact(number: int, wanted: list[Wish], rng: random.Ra
         assert hull.fingerprint == start
 
 
+@settings(max_examples=8)
+@given(st.integers(0, POOL - 1), st.integers(0, 2**16), st.floats(-0.02, 0.02))
+def test_leads_and_switches_of_a_net_give_the_same_bits_in_any_order(
+    number: int, which: int, amount: float
+) -> None:
+    """Leads of one edit in any order, by any handle, and with a switch there and back before."""
+    hulls = [fresh(number) for _ in range(2)]
+    prints = []
+    for turn, hull in enumerate(hulls):
+        points = [point for point in shared(hull) if len(point.free) == 1]
+        chosen = [points[which % len(points)], points[(which * 7 + 3) % len(points)]]
+        asked = [lead_asked(hull, point, amount, turn) for point in chosen[:: 1 - 2 * turn]]
+        with hull.edit("groups") as edit:
+            edit.group("some", list(hull.groups["sections"].lines)[:2])
+            edit.group("all", ["some", "waterlines"])
+        if turn:
+            start = hull.fingerprint
+            there_and_back(hull)
+            assert hull.fingerprint == start
+        try:
+            with hull.edit("lead") as edit:
+                for line, place in asked:
+                    edit.lead(line, place)
+        except ah.AssocHullError as error:
+            prints.append(type(error).__name__)
+            continue
+        prints.append(hull.fingerprint)
+    assert prints[0] == prints[1]
+
+
+def lead_asked(
+    hull: ah.Hull, point: Point, amount: float, turn: int
+) -> tuple[str, list[tuple[str | Point, list[float]]]]:
+    """Give a line through a crossing and a new place of that, by one handle or the other."""
+    place = [float(getattr(point, axis)) + amount * (axis in point.free) for axis in "xyz"]
+    handle = point if turn == 0 else point.friend_point
+    assert handle is not None
+    return point.container_curve.line.name, [(handle, place)]
+
+
+def there_and_back(hull: ah.Hull) -> None:
+    """Let waterlines rule a part of the hull, and no more, in two edits."""
+    half = 0.5 * hull.particulars.length
+    with hull.edit("there") as edit:
+        edit.rule("waterlines", "sections", [("waterlines", {"x": (None, half)})])
+    with hull.edit("back") as edit:
+        edit.rule("waterlines", "sections", [])
+
+
 def test_most_ways_are_quiet() -> None:
     """So that the two properties above say something."""
     rng, quiet = random.Random(10), 0

@@ -20,7 +20,7 @@ from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import tangents
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.links import PointsOnCurve, generates, points_on
+from assoc_hull.model.links import PointsOnCurve, crossing_ways, generates, points_on
 from assoc_hull.model.roles import Candidates, choose
 from assoc_hull.model.tables import HullState
 from assoc_hull.tolerance import Tolerances
@@ -238,26 +238,59 @@ def _declared(state: HullState) -> Iterator[Finding]:
 
 
 def _undeclared(state: HullState, book: AddressBook) -> Iterator[Finding]:
-    """Crossings of lines that are not associated, or driven against the association."""
+    """Crossings of lines that are not associated, or with a role against what is said of them."""
+    rows = np.array(crossings_of(state), np.int64)
+    said = crossing_ways(state, rows)
+    held = _held_by_placed(state) if state.rulings else set[str]()
     declared: dict[tuple[int, int], tuple[bool, bool]] = {}
-    for row in crossings_of(state):
+    for row, ways in zip(rows.tolist(), said.tolist(), strict=True):
         curves = state.rows.curve[row].tolist()
         lines = (state.line_of(curves[0]), state.line_of(curves[1]))
         groups = tuple(int(state.lines.group[line]) for line in lines)
         pair = (groups[0], groups[1])
         if pair not in declared:
             declared[pair] = generates(state, *lines)
-        # A crossing that slides out of a box keeps its role.
-        both = state.rulings and any(declared[pair])
-        text = _against((True, True) if both else declared[pair], Role(int(state.rows.role[row])))
-        if text and (declared[pair] == (False, False) or state.rows.override[row] < 0):
-            yield row_finding(state, book, row, "association", text)
+        override = state.rows.override[row] >= 0
+        if not any(declared[pair]):
+            yield row_finding(state, book, row, "association", _PARTED)
+        elif not state.rulings or state.rows.contact[row]:
+            text = _against(declared[pair], Role(int(state.rows.role[row])))
+            if text and not override:
+                yield row_finding(state, book, row, "association", text)
+        elif not override and (text := _against_ruling(state, row, ways, held)):
+            yield row_finding(state, book, row, "ruling", text)
+
+
+_PARTED = "joins groups that are not associated: associate them, or remove the crossing"
+
+
+def _against_ruling(state: HullState, row: int, ways: tuple[bool, bool], held: set[str]) -> str:
+    """Say how a role goes against who rules where the crossing lies; empty if it does not."""
+    role, ways = Role(int(state.rows.role[row])), (ways[0], ways[1])
+    if all(ways):
+        if state.rows.first_role[row] < 0 or state.rows.key[row] in held:
+            return ""
+        what = "as where one line rules, and lies where none does"
+    elif not _against(ways, role):
+        return ""
+    else:
+        lines = [state.line_of(curve) for curve in state.rows.curve[row].tolist()]
+        what = f"and lies where {state.lines.name[lines[0 if ways[0] else 1]]} rules"
+    return f"{role_words(role)} {what}: say again who rules where, by edit.rule"
+
+
+def _held_by_placed(state: HullState) -> set[str]:
+    """Give the keys of crossings whose stand-in a designer has placed: these are not switched."""
+    table = state.rows
+    return {
+        table.stands_for[row]
+        for row in table.stands_for.data.given
+        if table.alive[row] and table.sort[row] == Sort.PLACED
+    }
 
 
 def _against(generating: tuple[bool, bool], role: Role) -> str:
     """Say how a role goes against what is declared; empty if it does not."""
-    if generating == (False, False):
-        return "joins groups that are not associated: associate them, or remove the crossing"
     allowed = {
         (True, True): set(Role),
         (True, False): {Role.DRIVES_B, Role.WATCHED},

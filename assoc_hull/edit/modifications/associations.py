@@ -16,8 +16,8 @@ from assoc_hull.edit.modifications.switch_crossings import (
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.model.kinds import FAMILIES, Sort
-from assoc_hull.model.links import crossing_ways, named_lines
+from assoc_hull.model.kinds import FAMILIES
+from assoc_hull.model.links import crossing_ways, crossings_between, named_lines
 from assoc_hull.model.tables import Association, HullState, Ruling
 
 __all__ = ["associate", "dissociate", "rule", "ruled_crossings"]
@@ -72,10 +72,12 @@ def rule(edit: Transaction, a: str, b: str, where: Sequence[Ruling]) -> None:
     if a != b and len(both):
         what = f"{state.lines.name[int(both[0])]} is of both, {a!r} and {b!r}"
         raise BadInputError(what, "in rule", "name two that share no line")
-    rows = _crossings_of(state, *lines)
+    rows = crossings_between(state, *lines)
     rows = rows[~state.rows.contact[rows]]
-    if a == b or not len(rows):
-        what = f"{a!r} with itself" if a == b else f"{a!r} and {b!r} have no crossing"
+    said = any({each.a, each.b} == {a, b} for each in state.rulings)
+    if a == b or not (len(rows) or (said and not where)):
+        one, other = (_title(state, each, name) for each, name in zip(lines, (a, b), strict=True))
+        what = f"{one!r} with itself" if a == b else f"{one!r} and {other!r} have no crossing"
         raise BadInputError(what, "in rule", "name two groups or lines that are associated")
     before = crossing_ways(state, rows)
     kept = [each for each in state.rulings if {each.a, each.b} != {a, b}]
@@ -84,10 +86,16 @@ def rule(edit: Transaction, a: str, b: str, where: Sequence[Ruling]) -> None:
     follow_ways(edit, rows, before)
 
 
+def _title(state: HullState, lines: IntArray, name: str) -> str:
+    """Give the name of a line that was named by its key; a group's own name."""
+    line = int(lines[0]) if len(lines) else -1
+    return str(state.lines.name[line]) if line >= 0 and state.lines.key[line] == name else name
+
+
 def ruled_crossings(state: HullState) -> IntArray:
     """Give the crossings (k,) of all pairs of which is said who rules where."""
     found = [
-        _crossings_of(state, named_lines(state, each.a), named_lines(state, each.b))
+        crossings_between(state, named_lines(state, each.a), named_lines(state, each.b))
         for each in state.rulings
     ]
     return np.unique(np.concatenate([np.zeros(0, np.int64), *found]))
@@ -135,17 +143,7 @@ def _check_pair(edit: Transaction, a: str, b: str) -> None:
 
 def _crossings(state: HullState, a: str, b: str) -> IntArray:
     """Give the crossings of two groups, (k,)."""
-    return _crossings_of(state, named_lines(state, a), named_lines(state, b))
-
-
-def _crossings_of(state: HullState, a: IntArray, b: IntArray) -> IntArray:
-    """Give the crossings of lines with others, (k,)."""
-    table = state.rows
-    rows = np.flatnonzero(table.alive.data & (table.sort.data == Sort.CROSSING))
-    one, other = state.curves.line[table.curve[rows]].reshape(-1, 2).T
-    ahead = np.isin(one, a) & np.isin(other, b)
-    found: IntArray = rows[ahead | (np.isin(one, b) & np.isin(other, a))]
-    return found
+    return crossings_between(state, named_lines(state, a), named_lines(state, b))
 
 
 def dissociate(edit: Transaction, a: str, b: str) -> None:

@@ -490,6 +490,7 @@ class _Search:
     least: LeastChange
     rows: IntArray
     places: FloatArray
+    held: np.typing.NDArray[np.bool_]
     trials: int = 0
     shown: _Trial | None = None
     refusal: RefusedEditError | None = None
@@ -527,6 +528,7 @@ class _Search:
         return cls(
             edit, asked, _SignChanges(before), edit.stages, problem,
             LeastChange(problem, index, amount), rows, places,
+            np.zeros(len(problem.rows), np.bool_),
         )  # fmt: skip
 
     @property
@@ -537,13 +539,29 @@ class _Search:
     def find(self, like: _Trial | None = None) -> _Trial:
         """Give the first answer that is fair, by scale and radius; else the fairest that is found.
 
-        What is foretold to be fair is tried at once; the others when none of these was, the
-        fairest first. An answer like one to nearly the same is enough, if it is no less fair.
+        An answer like one to nearly the same is enough, if it is no less fair. Where each answer
+        is refused, boundary curves are held: a line that ends beside a corner of two of them can
+        come to end on the other one by a few mm of what dies out there.
         """
         if like is not None:
             trial = self._try(self._solved(like.answer, like.answer.weight))
             if trial is not None and trial.count <= like.count:
                 return trial
+        best = self._fairest()
+        if best is None:
+            self.held, self.trials = _on_boundaries(self.edit.state, self.problem.rows), 0
+            best = self._fairest()
+        if best is None:
+            assert self.refusal is not None, "each answer was taken or refused"
+            raise self.refusal
+        return best
+
+    def _fairest(self) -> _Trial | None:
+        """Give the first fair answer, else the fairest that was tried; None where all are refused.
+
+        What is foretold to be fair is tried at once; the others when none of these was, the
+        fairest first.
+        """
         best: _Trial | None = None
         waiting: list[_Candidate] = []
         for heavier, scale, turn in product((_HEAVIER, _GENTLER), _SCALES, range(len(_RADII))):
@@ -562,9 +580,6 @@ class _Search:
             best = self._tried(candidate, best)
             if best is not None and not best.count:
                 return best
-        if best is None:
-            assert self.refusal is not None, "each answer was taken or refused"
-            raise self.refusal
         return best
 
     def _tried(self, candidate: _Candidate, best: _Trial | None) -> _Trial | None:
@@ -585,6 +600,7 @@ class _Search:
         problem, state = self.problem, self.edit.state
         xyz = state.rows.xyz[problem.rows]
         fade = np.max([each.fade(state, xyz, turn) for each in self.asked], axis=0)
+        fade[self.held] = 0.0
         weight = np.ones(len(problem.residual))
         best: _Candidate | None = None
         side: IntArray | None = None
@@ -684,6 +700,8 @@ class _Search:
             f"answered fairly within {reach}: {int(far.sum())} points move by more than 1 mm, "
             f"{self.trials} tried"
         )
+        if self.held.any():
+            yield "boundary curves stay where they are: each answer that moved them was refused"
         yield from self._springs(best.answer.delta)
         state = self.edit.state
         for curve, (was, now, _) in best.gained.items():
@@ -713,6 +731,16 @@ class _Search:
         if now[worst] > max(_SPRINGS * was[worst], _DEEP * deepest):
             told += ": more than twice; spread it over more points, or ask for less"
         yield told
+
+
+def _on_boundaries(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell which points (k,) lie on boundary curves."""
+    curves = state.rows.curve[rows]
+    lines = state.curves.line[np.maximum(curves, 0)]
+    found: np.typing.NDArray[np.bool_] = ((curves >= 0) & (state.lines.boundary[lines] >= 0)).any(
+        axis=1
+    )
+    return found
 
 
 def _stands(state: HullState, row: int) -> tuple[object, ...]:

@@ -11,6 +11,7 @@ from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, NameTakenError
 from assoc_hull.model.address import ResolvedAddress
+from assoc_hull.model.kinds import OWN
 from assoc_hull.model.tables import HullState
 
 __all__ = ["rename", "rename_hull", "rename_lines", "taken_names"]
@@ -39,11 +40,12 @@ def rename(edit: Transaction, what: ResolvedAddress, name: object) -> None:
     if what.row >= 0:
         _rename_point(edit, what.row, line_name(name))
     elif what.line < 0:
-        raise BadInputError(
-            f"the group {state.groups.name[what.group]!r} keeps its name",
-            "in rename",
-            "associations and the keys of its lines are made of it; rename its lines",
-        )
+        own = state.groups.family[what.group] == OWN
+        remedy = "associations and the keys of its lines are made of it; rename its lines"
+        if own:
+            remedy = "make another one that holds what it holds, by edit.group, and ungroup this"
+        title = f"the group {state.groups.name[what.group]!r}"
+        raise BadInputError(f"{title} keeps its name", "in rename", remedy)
     elif what.curve >= 0 and len(state.lines.curves[what.line]) > 1:
         title = state.lines.name[what.line]
         remedy = f"a curve has the name of its line; rename {title!r}"

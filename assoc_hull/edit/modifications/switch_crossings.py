@@ -243,6 +243,11 @@ class _Switch:
             elif wanted and not inside:
                 stand_in = self.stand_ins.pop((str(table.key[row]), curve), None)
                 if stand_in is not None and (rows == stand_in).any():
+                    # A kind can have been set at it meanwhile, and the crossing can be a new one.
+                    for column in (table.kind, table.direction):
+                        value = column[[row]].copy()
+                        value[0, side] = column[stand_in, 0]
+                        journal.put(column, [row], value)
                     self._swap(curve, stand_in, row)
                     self.maker.remove_rows([stand_in])
                 else:

@@ -36,10 +36,12 @@ from assoc_hull.edit.recut.cut_followers import cut_followers, cut_kept, settle_
 from assoc_hull.edit.space_map import Affine, SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.links import crossings_between, named_lines
 from assoc_hull.model.make_objects import Maker, PointSpec
 from assoc_hull.model.network import bits_differ
-from assoc_hull.model.tables import CurveIntersections, HullState, Particulars
+from assoc_hull.model.tables import Corner, CurveIntersections, HullState, Particulars
 
 __all__ = [
     "PlaceFeaturePoints",
@@ -138,6 +140,7 @@ def transform(
     turned = carry_directions(work, edit.journal) | carry_ends(work, edit.journal)
     if reshape is not None:
         reshape(work)
+    _carry_rulings(edit, work)
     bend_lines(work)
     image = cut_drivers(work, edit.document.index)
     cut_kept(work)
@@ -232,6 +235,45 @@ def move_planes(maker: Maker, planes: TransformedPlanes) -> None:
     put(table.planar, lines, planes.planar[lines])
     put(table.normal, lines, planes.normal[lines])
     put(table.offset, lines, planes.offset[lines])
+
+
+def _carry_rulings(edit: Transaction, work: TransformationState) -> None:
+    """Let boxes in which lines rule hold the crossings that they held before, where boxes can."""
+    state = edit.state
+    if not state.rulings:
+        return
+    found = []
+    for each in state.rulings:
+        rows = crossings_between(state, named_lines(state, each.a), named_lines(state, each.b))
+        before, after = state.rows.xyz[rows], work.value[rows]
+        low, high = (_carried_corner(corner, before, after) for corner in (each.low, each.high))
+        found.append(attrs.evolve(each, low=low, high=high))
+    if tuple(found) != state.rulings:
+        edit.journal.set(state.settings.rulings, [0], [tuple(found)])
+
+
+def _carried_corner(corner: Corner, before: FloatArray, after: FloatArray) -> Corner:
+    x, y, z = (
+        None if bound is None else _carried_bound(bound, before[:, axis], after[:, axis])
+        for axis, bound in enumerate(corner)
+    )
+    return x, y, z
+
+
+def _carried_bound(bound: float, before: FloatArray, after: FloatArray) -> float:
+    """Give a bound that parts places (k,), m, as another did before; that one where none can."""
+    inside = before <= bound
+    below = int(np.argmax(np.where(inside, after, -np.inf))) if inside.any() else -1
+    above = int(np.argmin(np.where(inside, np.inf, after))) if not inside.all() else -1
+    if below < 0 or above < 0:
+        end = max(below, above)  # all lie on one side: it goes along with the nearest
+        return bound if end < 0 else float(bound + (after[end] - before[end]))
+    if not after[below] < after[above]:
+        return bound
+    if after[below] == before[below] and after[above] == before[above]:
+        return bound
+    part = (bound - before[below]) / (before[above] - before[below])
+    return float(after[below] + part * (after[above] - after[below]))
 
 
 def _publish(edit: Transaction, work: TransformationState, turned: set[int]) -> None:

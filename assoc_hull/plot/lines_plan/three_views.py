@@ -523,9 +523,9 @@ class Views:
             for points in whole:
                 true = points.copy()
                 true[:, 1] = -np.hypot(points[:, 1], points[:, 2] - start)
-                points_ = view.on_paper(true)
-                self.sheet.line(points_, pen, name)
-                lettered.append(LabelledLine(line.name, points_))
+                paper_points = view.on_paper(true)
+                self.sheet.line(paper_points, pen, name)
+                lettered.append(LabelledLine(line.name, paper_points))
         start, end = view.across(self.low[0]), view.across(self.high[0])
         name = "label/half-breadth/diagonals"
         written = label_lines(self.sheet, lettered, start, end, name=name)

@@ -24,7 +24,7 @@ from assoc_hull.model.definition.records import definition, published
 from assoc_hull.model.definition.restore import from_definition
 from assoc_hull.model.kinds import Role, Sort, State
 from assoc_hull.model.make_objects import Maker, PointSpec
-from assoc_hull.model.tables import Association, HullState
+from assoc_hull.model.tables import Association, HullState, Ruling
 from assoc_hull.shipped.wigley import wigley
 
 __all__ = ["DEFECTS", "POINT", "Defect", "every_defect", "planted", "sound"]
@@ -266,6 +266,26 @@ def turn_round(state: HullState) -> None:
     Maker(state, Journal()).roles(every, np.array([Role.DRIVES_B]))
 
 
+def rule_alone(state: HullState) -> None:
+    """Waterlines rule within a box, and its crossings were not switched."""
+    put_object(state, "settings", "rulings", 0, (Ruling("waterlines", "sections", two_way=False),))
+
+
+def rule_round(state: HullState) -> None:
+    """A crossing that drives the waterline which rules there."""
+    rule_alone(state)
+    put(state, "rows", "first_role", row_of(state), int(Role.SHARED))
+    Maker(state, Journal()).roles(np.array([row_of(state)]), np.array([Role.DRIVES_B]))
+
+
+def rule_elsewhere(state: HullState) -> None:
+    """A crossing that is switched, outside of the box in which waterlines rule."""
+    box = Ruling("waterlines", "sections", two_way=False, high=(1.0, None, None))
+    put_object(state, "settings", "rulings", 0, (box,))
+    put(state, "rows", "first_role", row_of(state), int(Role.SHARED))
+    Maker(state, Journal()).roles(np.array([row_of(state)]), np.array([Role.DRIVES_A]))
+
+
 def associate_nothing(state: HullState) -> None:
     """An association of a group that does not exist."""
     links = (*state.associations, Association("sections", "cant frames"))
@@ -388,6 +408,9 @@ DEFECTS: dict[str, Defect] = {
     ),
     "a broken association: one-way, and shared": Defect(turn_one_way, "association", POINT),
     "a broken association: driven against it": Defect(turn_round, "association", POINT),
+    "a ruling that was not carried out": Defect(rule_alone, "ruling", POINT),
+    "a ruling: a crossing against it": Defect(rule_round, "ruling", POINT),
+    "a ruling: a switched crossing out of its box": Defect(rule_elsewhere, "ruling", POINT),
     "a broken association: of no group": Defect(associate_nothing, "association", "cant frames"),
     "a broken association: declared twice": Defect(
         associate_twice, "association", "waterlines - sections"

@@ -534,6 +534,22 @@ def test_a_crossing_that_another_line_drives_names_its_driver(fresh_series60_70:
         edit.lead("WL 0.15", [("WL 0.15 x ST 9", np.add(place, (0, 0.01, 0)))])
 
 
+def test_a_lead_whose_end_would_carry_a_corner_away_leaves_the_corner(shipped: Shipped) -> None:
+    """BTK 6 of the 180 m ship ends on the transom some mm beside the deck edge, and would turn."""
+    hull = shipped("bulk_carrier_180m")
+    x, y, z = hull["ST 0"].curves[0].at(4.0)
+    corner = {name: hull.points[name].position for name in ("ST -0.4 x deck edge",)}
+    before = hull.fingerprint
+    with hull.edit("lead") as edit:
+        edit.lead("ST 0", [(x, y + 0.05, z)])
+    assert edit.report is not None
+    assert any(note.startswith("boundary curves stay where they are") for note in edit.report.notes)
+    assert all((hull.points[name].position == place).all() for name, place in corner.items())
+    assert (hull.verify(), edit.report.inflections) == ((), ())
+    hull.undo()
+    assert hull.fingerprint == before
+
+
 def test_flats_are_not_led(carrier: Hull) -> None:
     """The refusal names the line."""
     place = np.add(carrier.points["WL 9 x ST 6"].position, (0.0, 0.02, 0.0))

@@ -33,7 +33,10 @@ def roles(hull: ah.Hull, line: str) -> set[str]:
 
 
 def test_a_crossing_that_an_edit_carries_out_of_its_box_comes_back(hull: ah.Hull) -> None:
-    """It keeps what it was switched to, until a statement of its pair finds it elsewhere."""
+    """It keeps what it was switched to, until a statement of its pair finds it elsewhere.
+
+    Meanwhile `check` tells of it.
+    """
     x, y, z = hull.points[POINT].position
     with hull.edit("rule") as edit:
         edit.rule("waterlines", "sections", [("waterlines", {"y": (None, y + 1e-4)})])
@@ -41,6 +44,14 @@ def test_a_crossing_that_an_edit_carries_out_of_its_box_comes_back(hull: ah.Hull
     with hull.edit("lead") as edit:
         edit.lead("WL 2.5", [(POINT, (x, y + 0.02, z))])
     assert hull.crossings[POINT].role == "drives a"
+    (found,) = hull.check()
+    assert (found.kind, found.object) == ("ruling", POINT)
+    assert "as where one line rules, and lies where none does" in found.message
+    with hull.edit("say it again") as edit:
+        edit.rule("waterlines", "sections", [("waterlines", {"y": (None, y + 1e-4)})])
+    assert hull.crossings[POINT].role == "shared"
+    assert hull.check() == ()
+    hull.undo()
     with hull.edit("nothing rules") as edit:
         edit.rule("waterlines", "sections", [])
     assert hull.crossings[POINT].role == "shared"
@@ -111,3 +122,64 @@ def test_no_line_takes_the_name_of_a_group_in_another_case(hull: ah.Hull) -> Non
         edit.group("zz", ["ST 1"])
         with pytest.raises(NameTakenError):
             edit.rename("ST 2", "ZZ")
+
+
+@pytest.mark.parametrize("part", ["rejoin", "switch back"])
+def test_kinds_of_points_outlast_a_switch(hull: ah.Hull, part: str) -> None:
+    """Of crossings that are born anew, and set at the stand-in while the other line rules."""
+    with hull.edit("kind") as edit:
+        edit.set_kind("ST 7 x WL 2.5", "knuckle")
+    if part == "switch back":
+        with hull.edit("one-way") as edit:
+            edit.rule("sections", "waterlines", [("sections", {})])
+        place = hull.points[POINT].position
+        (stand_in,) = (
+            each for each in hull.lines["ST 7"].curves[0].defining if (each.position == place).all()
+        )
+        with hull.edit("kind") as edit:
+            edit.set_kind(stand_in, "tangent", direction=(0.0, 0.3, 1.0))
+    before = knots(hull)
+    with hull.edit(part) as edit:
+        if part == "rejoin":
+            edit.dissociate("waterlines", "sections")
+            edit.associate("waterlines", "sections")
+        else:
+            edit.rule("sections", "waterlines", [])
+    assert knots(hull) == before
+    assert (hull.check(), hull.verify()) == ((), ())
+    assert hull.points["ST 7 x WL 2.5"].kind == ("knuckle" if part == "rejoin" else "tangent")
+
+
+def test_a_ruling_whose_group_has_lost_its_lines_can_be_taken_back(hull: ah.Hull) -> None:
+    """As the refusal of `ungroup` says; then the group goes."""
+    with hull.edit("groups") as edit:
+        edit.group("stern lines", ["ST 1", "ST 2"])
+        edit.rule("stern lines", "waterlines", [("stern lines", {})])
+    with hull.edit("remove", gaps="report") as edit:
+        edit.remove_line("ST 1")
+        edit.remove_line("ST 2")
+    with pytest.raises(BadInputError, match="take that back before"), hull.edit("too soon") as edit:
+        edit.ungroup("stern lines")
+    with hull.edit("in order") as edit:
+        edit.rule("stern lines", "waterlines", [])
+        edit.ungroup("stern lines")
+    assert "stern lines" not in hull.groups
+    assert (hull.check(), hull.verify()) == ((), ())
+
+
+@pytest.mark.parametrize("cut", [40.0, 42.0, 1e3])
+def test_boxes_go_with_the_hull_where_it_is_carried(hull: ah.Hull, cut: float) -> None:
+    """Each crossing stays in its box, also on a border; a part that does not move keeps its cut."""
+    with hull.edit("rule") as edit:
+        edit.rule("waterlines", "sections", [("waterlines", {"x": (None, cut)})])
+    before = {key: each.role for key, each in hull.crossings.items()}
+    longer = hull.vary(set={"length": 1.1 * hull.particulars.length}).hull
+    assert {key: each.role for key, each in longer.crossings.items()} == before
+    assert (longer.check(), longer.verify()) == ((), ())
+    with longer.edit("again") as edit:
+        edit.rule("waterlines", "sections", [("waterlines", {"x": (None, 1.1 * cut)})])
+    assert {key: each.role for key, each in longer.crossings.items()} == before
+    with hull.edit("the same") as edit:
+        edit.transform(lambda p: p, ["sections"])
+    assert edit.report is not None
+    assert not edit.report.changed
