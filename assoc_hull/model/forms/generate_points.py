@@ -40,6 +40,7 @@ __all__ = [
     "first_marks",
     "generated_points",
     "marks_for",
+    "marks_of",
     "marks_suffice",
     "point_kinds_at",
     "refine_marks",
@@ -211,38 +212,61 @@ def first_marks(layout: str) -> list[Mark]:
     return [*found, (len(tokens) - 1, 4.0)]
 
 
+@attrs.frozen(eq=False)
+class _Chosen:
+    """Some of the lines of a shape, as a shape of their own."""
+
+    shape: LineShape
+    numbers: IntArray
+
+    def at(self, row: IntArray, piece: IntArray, t: FloatArray) -> FloatArray:
+        return self.shape.at(self.numbers[row], piece, t)
+
+    def tangent(self, row: IntArray, piece: IntArray, t: FloatArray) -> FloatArray:
+        return self.shape.tangent(self.numbers[row], piece, t)
+
+
 def refine_marks(
     shape: LineShape,
     layout: str,
-    marks: Sequence[Mark],
+    marks: Sequence[Sequence[Mark]],
     ends: FloatArray | None,
     under: int,
-    where: str,
-) -> list[Mark]:
-    """Add marks to those of one curve, both ends among them, until the spline is near enough.
+    where: Sequence[str],
+) -> list[list[Mark]]:
+    """Add marks to those of n curves, both ends among them, until the splines are near enough.
 
-    `ends`, (1, 2, 3) m, are where the ends lie, on the shape if None; `under` is the number of
-    pieces below the draught, whose area counts; `where` names the line in messages.
+    `ends`, (n, 2, 3) m, are where the ends lie, on the shape if None; `under` is the number of
+    pieces below the draught, whose area counts; `where` names the lines in messages.
 
     Raises
     ------
     BadInputError
-        The shape is bent too sharply for a spline with points at a decent distance.
+        A shape is bent too sharply for a spline with points at a decent distance.
     """
-    found = list(marks)
+    found = [list(each) for each in marks]
+    left = np.arange(len(found))
     for _ in range(_ROUNDS):
-        whole = MarkedSplines.of(shape, layout, [found], ends)
-        halved = _to_halve(whole, under)
-        if halved is None:
-            return found
+        some = [found[number] for number in left.tolist()]
+        held = None if ends is None else ends[left]
+        whole = MarkedSplines.of(_Chosen(shape, left), layout, some, held)
+        halved = _to_halve(whole, under, len(left))
+        wanting = np.bincount(whole.row[halved], minlength=len(left)) > 0
         halved &= whole.high - whole.low > _SHORTEST
-        if not halved.any():
+        stuck = wanting & (np.bincount(whole.row[halved], minlength=len(left)) == 0)
+        if stuck.any():
+            left = left[stuck]
             break
         middle = 0.5 * (whole.low + whole.high)
-        extra = [(int(whole.piece[i]), float(middle[i])) for i in np.flatnonzero(halved)]
-        found = sorted([*found, *extra])
+        for i in np.flatnonzero(halved).tolist():
+            found[left[whole.row[i]]].append((int(whole.piece[i]), float(middle[i])))
+        left = left[wanting]
+        for number in left.tolist():
+            found[number].sort()
+        if not len(left):
+            return found
     raise BadInputError(
-        "the curve is bent too sharply to be held within 1 mm and its area", where,
+        "the curve is bent too sharply to be held within 1 mm and its area", where[int(left[0])],
         "give smaller curvatures, or tangents nearer to a quarter of the chord",
     )  # fmt: skip
 
@@ -267,19 +291,19 @@ def _enough_area(
     return np.asarray(np.abs(off) <= AREA_WITHIN * np.maximum(area, _LEAST_AREA))
 
 
-def _to_halve(whole: MarkedSplines, under: int) -> NDArray[np.bool_] | None:
-    """Tell which intervals of one curve to halve; None where all is near enough."""
+def _to_halve(whole: MarkedSplines, under: int, count: int) -> NDArray[np.bool_]:
+    """Tell which intervals of `count` curves to halve; none of a curve that is near enough."""
     far = whole.deviations() > WITHIN
-    if far.any():
-        return far
     if not under:
-        return None
+        return far
+    near = np.bincount(whole.row[far], minlength=count) == 0
     exact, spline = whole.areas(under)
-    if _enough_area(whole, exact, spline, 1)[0]:
-        return None
+    near &= ~_enough_area(whole, exact, spline, count)
     # an interval of the shortest length cannot be halved, so it must not set the measure
     off = np.where(whole.high - whole.low > _SHORTEST, np.abs(spline - exact), 0.0)
-    return np.asarray(off > 0.5 * off.max())
+    most = np.zeros(count)
+    np.maximum.at(most, whole.row, off)
+    return np.asarray(far | (near[whole.row] & (off > 0.5 * most[whole.row])))
 
 
 # --------------------------------------------------------------------------------------
@@ -380,15 +404,27 @@ def marks_for(
         tangent = (int(PointKind.TANGENT),) * len(marks)
         return marks, tangent, np.tile((1.0, 0.0, 0.0), (len(marks), 1)), Ends()
     held = None if ends is None or what != "section" else np.asarray(ends, np.float64)[None]
-    shape = _shape(forms, what, layout, np.array([place]), held)
+    (found,) = marks_of(forms, what, layout, np.array([place]), held, [known])
+    kinds, directions = point_kinds_at(layout, found)
+    return found, tuple(kinds), directions, ends_for(layout)
+
+
+def marks_of(
+    forms: Forms,
+    what: str,
+    layout: str,
+    places: FloatArray,
+    ends: FloatArray | None,
+    known: Sequence[Sequence[Mark]],
+) -> list[tuple[Mark, ...]]:
+    """Give the marks of n lines of one layout, as `marks_for` gives those of one."""
+    shape = _shape(forms, what, layout, places, ends)
     under = _under(what, layout)
     begin = first_marks(layout)
-    start = sorted({begin[0], begin[-1], *known}) if known else begin
-    where = f"on the {what}" + (f" x = {place:g} m" if under else "")
-    found = refine_marks(shape, layout, start, held, under, where)
-    chosen = tuple(found[1:-1] if what == "section" else found)
-    kinds, directions = point_kinds_at(layout, chosen)
-    return chosen, tuple(kinds), directions, ends_for(layout)
+    start = [sorted({begin[0], begin[-1], *each}) if each else begin for each in known]
+    where = [f"on the {what}" + (f" x = {place:g} m" if under else "") for place in places.tolist()]
+    found = refine_marks(shape, layout, start, ends, under, where)
+    return [tuple(each[1:-1] if what == "section" else each) for each in found]
 
 
 def generated_points(
