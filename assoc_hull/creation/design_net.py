@@ -44,7 +44,7 @@ __all__ = [
     "boundary_curves",
     "build_net",
     "section_curves",
-    "straighten_waterline",
+    "straighten_on_flat",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -194,22 +194,22 @@ def _sections(
     return found
 
 
-def straighten_waterline(edit: Transaction, forms: Forms, line: int) -> None:
-    """Insert the two points at which a waterline comes onto its flat and leaves it.
+def straighten_on_flat(edit: Transaction, forms: Forms, line: int, what: str) -> None:
+    """Insert the two points at which a waterline or a buttock comes onto its flat and leaves it.
 
     Between them it is straight: they are tangent points, which the definitions generate. `edit` is
     the one in which the line was cut.
     """
     state = edit.state
-    z = float(state.lines.offset[line])
-    layout = layout_at(forms, "waterline", z)
+    place = float(state.lines.offset[line])
+    layout = layout_at(forms, what, place)
     curves = [curve for curve in state.lines.curves[line] if state.curves.alive[curve]]
     if not layout or len(curves) != 1:
         return
     curve = curves[0]
     ends = end_points(state, curves)[0]
-    marks, kind, direction, _ = marks_for(forms, "waterline", layout, z, ends)
-    made = GeneratedCurve(state.curves.key[curve], curve, "waterline", layout, (), tuple(marks))
+    marks, kind, direction, _ = marks_for(forms, what, layout, place, ends)
+    made = GeneratedCurve(state.curves.key[curve], curve, what, layout, (), tuple(marks))
     places = generated_points(forms, [made], np.array([line_offset(state, curve)]), ends[None])[0]
     specs = [
         PointSpec(curve, xyz, Sort.ADOPTED, int(each), way)
@@ -272,7 +272,7 @@ def build_net(design: Design) -> tuple[HullState, AdoptionReport]:
     document = Document(state)
     for z in design.waterlines:
         with Transaction(document, f"cut waterline {z:g}") as edit:
-            straighten_waterline(edit, forms, add_line(edit, "waterlines", z))
+            straighten_on_flat(edit, forms, add_line(edit, "waterlines", z), "waterline")
     for y in design.buttocks:
         with Transaction(document, f"cut buttock {y:g}") as edit:
             add_line(edit, "buttocks", y)

@@ -7,6 +7,7 @@ from that design. A note tells of each value: its source, its range, what other 
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Mapping
 
@@ -439,6 +440,7 @@ def _lines(design: Design, parent: Design) -> Design:
             continue
         if not stations or place - stations[-1] >= _NEAREST:
             stations.append(place)
+    stations = _without_gaps(stations, design)
     digits = 1 if ship.draught >= 8.0 else 2
     heights = {z if abs(z - ship.draught) < 1e-6 else round(z, digits) for z in design.waterlines}
     return attrs.evolve(
@@ -447,6 +449,22 @@ def _lines(design: Design, parent: Design) -> Design:
         buttocks=tuple(round(0.5 * ship.breadth * each, digits) for each in _BUTTOCKS),
     )  # fmt: skip
 
+
+def _without_gaps(stations: list[float], design: Design) -> list[float]:
+    """Add stations where the swing left run or entrance between two far from one another."""
+    areas = design.definition("sectional_area")
+    ends = [10.0 * (1.0 + half_number(areas, each)) for each in ("run_end", "entrance_start")]
+    found = list(stations)
+    for low, high in itertools.pairwise(stations):
+        if high - low > _FARTHEST and not (low >= ends[0] - 0.1 and high <= ends[1] + 0.1):
+            count = math.ceil((high - low) / _FARTHEST)
+            between = np.linspace(low, high, count + 1)[1:-1].tolist()
+            found += [round(_ROUND * place) / _ROUND for place in between]
+    return sorted(found)
+
+
+_FARTHEST = 0.6
+"""Stations of run and entrance stand no farther apart, in twentieths of the length."""
 
 _ROUND = 20.0
 """Stations stand at multiples of a twentieth of a station spacing."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from assoc_hull.creation.area_swing import half_sums
 from assoc_hull.creation.design import Design
-from assoc_hull.creation.design_net import build_net, straighten_waterline
+from assoc_hull.creation.design_net import build_net, straighten_on_flat
 from assoc_hull.creation.six_numbers import DesignNote, TypedDesign
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.edit.document import Document
@@ -36,6 +36,9 @@ _LEVEL, _LOWEST, _PLACES = 1e-3, 5e-3, 32
 """m: what dips below the base line by less is told of by nobody; by more than this part of the
 draught, it is refused. Places that are looked at between two points."""
 
+_DIP = 8e-4
+"""A buttock that dips by more (m) is shifted; closing CB and LCB moves it a little after that."""
+
 _SHIFTS = (0.0, 0.03, -0.03, 0.06, -0.06)
 """Of the draught or of half the breadth: where else a line is tried."""
 
@@ -51,11 +54,17 @@ def build_typed(typed: TypedDesign) -> tuple[HullState, AdoptionReport, TypedDes
 
     def waterline(z: float) -> None:
         with Transaction(document, f"cut waterline {z:g}") as edit:
-            straighten_waterline(edit, forms, add_line(edit, "waterlines", z))
+            straighten_on_flat(edit, forms, add_line(edit, "waterlines", z), "waterline")
 
     def buttock(y: float) -> None:
         with Transaction(document, f"cut buttock {y:g}") as edit:
-            add_line(edit, "buttocks", y)
+            line = add_line(edit, "buttocks", y)
+            straighten_on_flat(edit, forms, line, "buttock")
+        # Shortly outside the flat of bottom a buttock is nearly level.
+        low = min(_lowest(state, curve) for curve in state.lines.curves[line])
+        if low < -_DIP:
+            document.undo()
+            raise BadInputError(f"it dips {-low:.2g} m below the base line", "", "shift it")
 
     ship = design.particulars
     heights = _cut(waterline, design.waterlines, ship.draught, "waterline", notes)
@@ -71,17 +80,9 @@ def dips_below_base(state: HullState) -> list[DesignNote]:
     """
     lowest, name = 0.0, ""
     for curve in state.live("curves").tolist():
-        spline = state.spline(curve)
-        # Between two points a curve stays within the corners of its Bezier polygon.
-        length = np.diff(spline.knot) / 3.0
-        z = spline.xyz[:, 2]
-        corners = np.minimum(
-            z[:-1] + length * spline.leave[:-1, 2], z[1:] - length * spline.arrive[1:, 2]
-        )
-        if corners.min() < min(lowest, -_LEVEL):
-            low = float(sample(spline, _PLACES)[1][:, 2].min())
-            if low < lowest:
-                lowest, name = low, str(state.lines.name[state.line_of(curve)])
+        low = _lowest(state, curve)
+        if low < lowest:
+            lowest, name = low, str(state.lines.name[state.line_of(curve)])
     if lowest < -_LOWEST * state.particulars.draught:
         what = f"{name} would go {-lowest:.2g} m below the base line"
         raise BadInputError(what, "in a ship from six numbers", "ask for less hollow ends")
@@ -89,6 +90,20 @@ def dips_below_base(state: HullState) -> list[DesignNote]:
         return []
     why = f"{name} dips below the base line: lead it or fair it there"
     return [DesignNote("lowest place of the net", lowest, "m", "measured", remark=why)]
+
+
+def _lowest(state: HullState, curve: int) -> float:
+    """Give the lowest height (m) of a curve if that is below the base line, else 0."""
+    spline = state.spline(curve)
+    # Between two points a curve stays within the corners of its Bezier polygon.
+    length = np.diff(spline.knot) / 3.0
+    z = spline.xyz[:, 2]
+    corners = np.minimum(
+        z[:-1] + length * spline.leave[:-1, 2], z[1:] - length * spline.arrive[1:, 2]
+    )
+    if corners.min() >= -_LEVEL:
+        return 0.0
+    return min(float(sample(spline, _PLACES)[1][:, 2].min()), 0.0)
 
 
 def _with_room(

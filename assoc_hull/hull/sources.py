@@ -23,6 +23,7 @@ from assoc_hull.arguments import (
     number,
     positive,
     regular_file,
+    shown,
     text,
 )
 from assoc_hull.errors import BadInputError, OutOfRangeError, RefusedEditError
@@ -260,6 +261,11 @@ def _from_six(
         raise BadInputError(f"{', '.join(missing)} is missing", where, "give it, or a design")
     if lcb is not None and percent is not None:
         raise BadInputError("lcb and lcb_percent are both given", where, "leave one out")
+    for word, value in {**six, "lcb": lcb, "lcb_percent": percent, **given}.items():
+        # a text is a value that nobody has looked at: of a form, in other units
+        if isinstance(value, str):
+            what = f"{word} is the text {shown(value)}"
+            raise BadInputError(what, where, "give a number, without quotes")
     numbers = {word: positive(value, word, where) for word, value in six.items()}
     if percent is not None:
         lcb = 0.01 * number(percent, "lcb_percent", where) * numbers["length"]

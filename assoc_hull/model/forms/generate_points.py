@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.model.form_definition import GeneratedCurve, Mark
+from assoc_hull.model.form_definition import ON_FLATS, GeneratedCurve, Mark
 from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.line_layout import (
     COURSES,
@@ -26,7 +26,7 @@ from assoc_hull.model.forms.line_layout import (
     deck_shape,
     ends_for,
     joints_of,
-    water_points,
+    flat_points,
 )
 from assoc_hull.model.forms.section_pieces import LineShape
 from assoc_hull.model.forms.sections import parts_at_draught, section_shape
@@ -335,6 +335,7 @@ _SETTLED = {"level": "keel_angle", "upright": "waterline_angle"}
 _BY_LINE = {
     "deck edge": ("deck_side", "deck_height"),
     "flat of bottom": ("flat_of_bottom", "profile"),
+    "buttock bottom": ("flat_of_bottom", "profile"),
     "waterline side": ("flat_of_side",),
     "waterline parallel": ("sectional_area", "design_waterline", "bilge_radius", "profile"),
 }
@@ -355,8 +356,8 @@ def definitions_read(curve: GeneratedCurve) -> tuple[str, ...]:
             found += ["profile", "deck_side", "deck_height"]
         settled = {_SETTLED[token] for token in tokens if token in _SETTLED}
         return tuple(use for use in dict.fromkeys(found) if use not in settled)
-    if curve.what == "waterline":
-        return _BY_LINE.get(f"waterline {curve.layout}", ())
+    if curve.what in ON_FLATS:
+        return _BY_LINE.get(f"{curve.what} {curve.layout}", ())
     return _BY_LINE.get(curve.what) or ((COURSES[curve.what],) if curve.what in COURSES else ())
 
 
@@ -377,7 +378,7 @@ def marks_for(
     what, layout : str
         What is generated, of which pieces.
     place : float, m
-        x of a section, z of a waterline.
+        x of a section, z of a waterline, y of a buttock.
     ends : (2, 3), m
         Of a section: where it meets profile and deck edge.
     known : sequence of Mark
@@ -399,7 +400,7 @@ def marks_for(
     BadInputError
         A curve that cannot be made, or not be held within 1 mm and 1e-6 of its area.
     """
-    if what == "waterline":
+    if what in ON_FLATS:
         marks: tuple[Mark, ...] = ((0, 0.0), (1, 0.0)) if layout else ()
         tangent = (int(PointKind.TANGENT),) * len(marks)
         return marks, tangent, np.tile((1.0, 0.0, 0.0), (len(marks), 1)), Ends()
@@ -432,7 +433,7 @@ def generated_points(
 ) -> list[FloatArray]:
     """Give the points, (k, 3) m each, of m generated curves in the order of their marks.
 
-    `places` (m,) are x of a section, z of a waterline; `ends`, (m, 2, 3) m, are where sections
+    `places` (m,) are x of a section, z of a waterline, y of a buttock; `ends`, (m, 2, 3) m, are where sections
     meet profile and deck edge. Both are without meaning for other lines.
 
     Raises
@@ -442,9 +443,9 @@ def generated_points(
     """
     found: list[FloatArray] = [np.zeros((0, 3))] * len(curves)
     for (what, layout), numbers in _groups(curves):
-        if what == "waterline":
+        if what in ON_FLATS:
             for number in numbers.tolist():
-                found[number] = _on_water(forms, curves[number], float(places[number]))
+                found[number] = _on_flat(forms, curves[number], float(places[number]))
             continue
         shape = _shape(forms, what, layout, places[numbers], ends[numbers])
         marks = [curves[number].marks for number in numbers.tolist()]
@@ -466,7 +467,7 @@ def marks_suffice(
     """
     found = np.ones(len(curves), np.bool_)
     for (what, layout), numbers in _groups(curves):
-        if what == "waterline":
+        if what in ON_FLATS:
             continue
         shape = _shape(forms, what, layout, places[numbers], ends[numbers])
         own = ends[numbers] if what == "section" else None
@@ -491,7 +492,7 @@ def _groups(
 
 def _on_pieces(curve: GeneratedCurve) -> None:
     """Refuse marks that lie on no piece."""
-    count = 2 if curve.what == "waterline" else curve.layout.count("+") + 1
+    count = 2 if curve.what in ON_FLATS else curve.layout.count("+") + 1
     for piece, t in curve.marks:
         if not (0 <= piece < count and 0.0 <= t <= 4.0):
             raise BadInputError(
@@ -538,14 +539,14 @@ def _own_ends(forms: Forms, places: FloatArray) -> FloatArray:
     return found
 
 
-def _on_water(forms: Forms, curve: GeneratedCurve, z: float) -> FloatArray:
-    """Give the places where a waterline comes onto a flat and leaves it."""
+def _on_flat(forms: Forms, curve: GeneratedCurve, place: float) -> FloatArray:
+    """Give where a waterline or a buttock comes onto a flat and leaves it."""
     if not curve.layout:
         return np.zeros((0, 3))
-    points = water_points(forms, curve.layout, z)
+    points = flat_points(forms, curve.what, curve.layout, place)
     if not np.isfinite(points).all():
         raise BadInputError(
-            f"the waterline does not run along the flat ({curve.layout}) any more",
-            f"at z = {z:g} m", "let the flat reach its height",
+            f"the {curve.what} does not run along the flat ({curve.layout}) any more",
+            f"at {'yz'[curve.what == 'waterline']} = {place:g} m", "let the flat reach it",
         )  # fmt: skip
     return points[[mark[0] for mark in curve.marks]]
