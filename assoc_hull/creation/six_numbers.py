@@ -21,7 +21,7 @@ from assoc_hull.creation.scaled_design import CarriedDesign, carried_places, car
 from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.forms.closure import close_halves, coefficients
-from assoc_hull.model.forms.two_halves import half_number
+from assoc_hull.model.forms.two_halves import half_fault, half_number
 from assoc_hull.model.tables import Particulars
 
 __all__ = ["DesignNote", "ShipType", "SixNumbers", "TypedDesign", "design_for", "with_areas"]
@@ -365,10 +365,14 @@ def with_areas(design: Design, cb: float, lcb: float) -> FormDefinition:
     moment = 2.0 * (mean * at - now.fullness * 2.0 * now.centroid / ship.length)
     run, entrance = (half_number(areas, f"{half}_centroid") for half in ("run", "entrance"))
     shares = np.linalg.solve([[1.0, 1.0], [run, entrance]], [more, moment])
-    return areas.having({
+    found = areas.having({
         f"{half}_area": half_number(areas, f"{half}_area") + float(share)
         for half, share in zip(("run", "entrance"), shares, strict=True)
     })  # fmt: skip
+    if any(half_fault(found, half) for half in ("run", "entrance")):
+        # Near the last centroid that a half can have: the parallel part moves a little instead.
+        return swing_areas(areas, mean, at).definition
+    return found
 
 
 def _area_notes(areas: FormDefinition, six: SixNumbers, way: str) -> list[DesignNote]:

@@ -302,7 +302,7 @@ def _closed(hull: Hull, asked: SixNumbers, typed: TypedDesign) -> tuple[Hull, Ty
 
     design = typed.design
     for _ in range(4):
-        found = hull.hydrostatics()
+        found = hull.hydrostatics(estimate=False)
         more = asked.cb - found.cb
         ahead = asked.lcb - (found.lcb - 0.5 * asked.length)
         if max(abs(more), abs(ahead) / asked.length) <= _CLOSE:
@@ -310,19 +310,21 @@ def _closed(hull: Hull, asked: SixNumbers, typed: TypedDesign) -> tuple[Hull, Ty
         now = coefficients(design.definition("sectional_area"), design.particulars)
         assert now.block is not None
         areas = with_areas(design, now.block + more, now.centroid + ahead)
+        before = design.definition("sectional_area").values
+        changes = {name: v for name, v in areas.values.items() if v != before.get(name)}
         design = design.having(areas)
         try:
             with hull.edit("close CB and LCB") as edit:
-                edit.set_form(
-                    areas.name, run_area=areas.value("run_area"),
-                    entrance_area=areas.value("entrance_area"),
-                )  # fmt: skip
+                edit.set_form(areas.name, **changes)
         except (BadInputError, RefusedEditError):
             # A net that does not follow is made anew.
             state, _, typed = build_typed(attrs.evolve(typed, design=design))
             hull = Hull(state)
             design = typed.design
-    return Hull(hull.state), typed
+    hull = Hull(hull.state)
+    # What hydrostatics doubt is no ship: it refuses here, not when somebody asks for a volume.
+    hull.hydrostatics()
+    return hull, typed
 
 
 def open(path: str | os.PathLike[str], *, wait: float = 0.0, damaged: bool = False) -> Hull:
