@@ -25,10 +25,10 @@ __all__ = ["SwungAreas", "half_sums", "scaled_half", "swing_areas"]
 _GAP = 0.02
 """The parallel part is at least this long, so that its ends are two places."""
 
-_SHORTEST = 0.40
-"""No half is shorter: a fifth of the length."""
+_SHORTEST = (0.40, 0.36, 0.32)
+"""No half is shorter: a fifth of the length; less for full ships, where no other curve has both."""
 
-_FULLNESS = (0.45, 0.74)
+_FULLNESS = (0.45, 0.80)
 """Fullness of a half within which curves of the kind used here rise all the way."""
 
 
@@ -107,10 +107,9 @@ def swing_areas(definition: FormDefinition, fullness: float, centroid: float) ->
     if ends is not None and ends[1] - ends[0] < _GAP:
         middle = float(np.clip(0.5 * (ends[0] + ends[1]), -0.25, 0.2))
         return _both_areas(definition, fullness, centroid, middle - 0.5 * _GAP, middle + 0.5 * _GAP)
-    if ends is None or ends[1] > 1.0 - _SHORTEST:
-        return _one_area(definition, fullness, centroid, "entrance", 1.0 - _SHORTEST)
-    if ends[0] < _SHORTEST - 1.0:
-        return _one_area(definition, fullness, centroid, "run", _SHORTEST - 1.0)
+    for half, inner in (("entrance", 1.0), ("run", -1.0)):
+        if ends is None or inner * ends[half == "entrance"] > 1.0 - _SHORTEST[0]:
+            return _shortened(definition, fullness, centroid, half)
     found = scaled_half(scaled_half(definition, "run", ends[0]), "entrance", ends[1])
     return SwungAreas(_sound(found), "both halves keep their fullness; the parallel part moves")
 
@@ -161,6 +160,20 @@ def _both_areas(
     return SwungAreas(found, "no parallel part is left: the fullness of both halves gives")
 
 
+def _shortened(
+    definition: FormDefinition, fullness: float, centroid: float, half: str
+) -> SwungAreas:
+    """Let the fullness of a half give; where that does not do, the half is shorter as well."""
+    sign = 1.0 if half == "entrance" else -1.0
+    for short in _SHORTEST:
+        try:
+            return _one_area(definition, fullness, centroid, half, sign * (1.0 - short))
+        except BadInputError:
+            if short == _SHORTEST[-1]:
+                raise
+    raise AssertionError
+
+
 def _one_area(
     definition: FormDefinition, fullness: float, centroid: float, half: str, inner: float
 ) -> SwungAreas:
@@ -174,10 +187,11 @@ def _one_area(
         kept = half_sums(swung, other)[0]
         return _free(swung, half, 2.0 * fullness - kept - sign * (inner - place))
 
-    ends = sign * (_SHORTEST - 1.0), inner - sign * _GAP
+    ends = sign * (_SHORTEST[0] - 1.0), inner - sign * _GAP
     bounds = min(ends), max(ends)
     found = _solved(made, centroid, bounds)
-    why = f"the {half} is not shortened below a fifth of the length: its fullness gives"
+    part = 0.5 * (1.0 - abs(inner))
+    why = f"the {half} is not shortened below {part:.2g} of the length: its fullness gives"
     return SwungAreas(found, why)
 
 

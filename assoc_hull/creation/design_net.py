@@ -25,8 +25,13 @@ from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.form_definition import GeneratedCurve, Mark
 from assoc_hull.model.forms.form_values import Forms
-from assoc_hull.model.forms.generate_points import generated_points, marks_for
-from assoc_hull.model.forms.line_layout import layout_at
+from assoc_hull.model.forms.generate_points import (
+    generated_points,
+    marks_for,
+    marks_of,
+    point_kinds_at,
+)
+from assoc_hull.model.forms.line_layout import ends_for, layout_at
 from assoc_hull.model.generated_curves import end_points, line_offset
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort
 from assoc_hull.model.line_source import LineSource, line_curve_data
@@ -39,7 +44,7 @@ __all__ = [
     "boundary_curves",
     "build_net",
     "section_curves",
-    "straighten_waterline",
+    "straighten_on_flat",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -131,11 +136,23 @@ def section_curves(
     not end; OutOfRangeError where the definitions ask for a section that is impossible.
     """
     edges = loft(line_curve_data([each.source for each in boundary if each.what != "transom"]))
-    found = list[DrawnCurve]()
-    for station, x in zip(design.stations, design.station_places, strict=True):
-        for part, ends in enumerate(_section_ends(edges, station, x)):
-            found.append(_section(forms, f"ST {station:g}", x, part, ends))
-    return found
+    stands = [
+        (f"ST {station:g}", x, ends, layout_at(forms, "section", x, part))
+        for station, x in zip(design.stations, design.station_places, strict=True)
+        for part, ends in enumerate(_section_ends(edges, station, x))
+    ]
+    alike: dict[str, list[int]] = {}
+    for number, (*_, layout) in enumerate(stands):
+        alike.setdefault(layout, []).append(number)
+    found: list[DrawnCurve | None] = [None] * len(stands)
+    for layout, numbers in alike.items():
+        names, x, ends = (
+            [stands[number][part] for number in numbers] for part in range(3)
+        )
+        sections = _sections(forms, names, np.array(x), np.array(ends), layout)
+        for number, section in zip(numbers, sections, strict=True):
+            found[number] = section
+    return [each for each in found if each is not None]
 
 
 def _section_ends(edges: SplineBatch, station: float, x: float) -> list[FloatArray]:
@@ -152,38 +169,47 @@ def _section_ends(edges: SplineBatch, station: float, x: float) -> list[FloatArr
     return [crossings[i : i + 2] for i in range(0, len(crossings), 2)]
 
 
-def _section(forms: Forms, name: str, x: float, part: int, ends: FloatArray) -> DrawnCurve:
-    layout = layout_at(forms, "section", x, part)
-    marks, kind, direction, conditions = marks_for(forms, "section", layout, x, ends)
-    points = _points(forms, "section", layout, marks, x, ends)
-    smooth = [int(PointKind.SMOOTH)]
-    # The ends are crossings: they have no direction of their own.
-    given = np.zeros((len(points) + 2, 3))
-    given[1:-1] = direction
-    source = LineSource.make(
-        "sections", name, np.concatenate([ends[:1], points, ends[1:]]),
-        plane=(_AHEAD, x), kind=[*smooth, *kind, *smooth], direction=given, ends=conditions,
-        placed=True, tolerance=_TOLERANCE,
-    )  # fmt: skip
-    return DrawnCurve(source, "section", layout, tuple(marks), 1)
+def _sections(
+    forms: Forms, names: Sequence[str], x: FloatArray, ends: FloatArray, layout: str
+) -> list[DrawnCurve]:
+    """Draw sections of one layout at x, (n,) m, between ends, (n, 2, 3) m: alike ones at once."""
+    marks = marks_of(forms, "section", layout, x, ends, [()] * len(names))
+    made = [
+        GeneratedCurve("", 0, "section", layout, tuple(range(len(each))), each) for each in marks
+    ]
+    smooth, conditions = [int(PointKind.SMOOTH)], ends_for(layout)
+    found = []
+    for number, points in enumerate(generated_points(forms, made, x, ends)):
+        kinds, directions = point_kinds_at(layout, marks[number])
+        # The ends are crossings: they have no direction of their own.
+        given = np.zeros((len(points) + 2, 3))
+        given[1:-1] = directions
+        source = LineSource.make(
+            "sections", names[number],
+            np.concatenate([ends[number, :1], points + 0.0, ends[number, 1:]]),
+            plane=(_AHEAD, float(x[number])), kind=[*smooth, *kinds, *smooth], direction=given,
+            ends=conditions, placed=True, tolerance=_TOLERANCE,
+        )  # fmt: skip
+        found.append(DrawnCurve(source, "section", layout, marks[number], 1))
+    return found
 
 
-def straighten_waterline(edit: Transaction, forms: Forms, line: int) -> None:
-    """Insert the two points at which a waterline comes onto its flat and leaves it.
+def straighten_on_flat(edit: Transaction, forms: Forms, line: int, what: str) -> None:
+    """Insert the two points at which a waterline or a buttock comes onto its flat and leaves it.
 
     Between them it is straight: they are tangent points, which the definitions generate. `edit` is
     the one in which the line was cut.
     """
     state = edit.state
-    z = float(state.lines.offset[line])
-    layout = layout_at(forms, "waterline", z)
+    place = float(state.lines.offset[line])
+    layout = layout_at(forms, what, place)
     curves = [curve for curve in state.lines.curves[line] if state.curves.alive[curve]]
     if not layout or len(curves) != 1:
         return
     curve = curves[0]
     ends = end_points(state, curves)[0]
-    marks, kind, direction, _ = marks_for(forms, "waterline", layout, z, ends)
-    made = GeneratedCurve(state.curves.key[curve], curve, "waterline", layout, (), tuple(marks))
+    marks, kind, direction, _ = marks_for(forms, what, layout, place, ends)
+    made = GeneratedCurve(state.curves.key[curve], curve, what, layout, (), tuple(marks))
     places = generated_points(forms, [made], np.array([line_offset(state, curve)]), ends[None])[0]
     specs = [
         PointSpec(curve, xyz, Sort.ADOPTED, int(each), way)
@@ -246,7 +272,7 @@ def build_net(design: Design) -> tuple[HullState, AdoptionReport]:
     document = Document(state)
     for z in design.waterlines:
         with Transaction(document, f"cut waterline {z:g}") as edit:
-            straighten_waterline(edit, forms, add_line(edit, "waterlines", z))
+            straighten_on_flat(edit, forms, add_line(edit, "waterlines", z), "waterline")
     for y in design.buttocks:
         with Transaction(document, f"cut buttock {y:g}") as edit:
             add_line(edit, "buttocks", y)

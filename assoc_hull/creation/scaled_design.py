@@ -7,6 +7,7 @@ draught and with D - T above it; angles by their tangents; what hangs on the bil
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from functools import cached_property
@@ -204,7 +205,41 @@ def _course(course: FormDefinition, carried: CarriedDesign) -> FormDefinition:
         slopes = _slope(carried.x, x), (ordinate(y) - ordinate(y - _STEP)) / _STEP
         for leave in ("", "leave_"):
             changes |= _turned(course, f"{node}_{leave}", *slopes)
-    return course.having(changes)
+    found = course.having(changes)
+    return found.having(_paces(course, found)) if course.rule == "form" else found
+
+
+def _paces(old: FormDefinition, new: FormDefinition) -> dict[str, float | None]:
+    """Give the tangents with which each piece of a course is that of the old one, stretched.
+
+    They are parts of chords, and a chord grows by another factor than a level or upright tangent:
+    kept, a flatter forefoot would run below the base line.
+    """
+    found: dict[str, float | None] = {}
+    for first, last in itertools.pairwise(old.nodes):
+        steps = np.array([
+            [float(each.value(f"{last}_{axis}") or 0.0) - float(each.value(f"{first}_{axis}") or 0.0)
+             for axis in "xy"]
+            for each in (old, new)
+        ])  # fmt: skip
+        if not steps.all():
+            continue
+        chords = np.hypot(*steps.T)
+        stretch = steps[1] / steps[0] * chords[0] / chords[1]
+        for node, prefixes in ((first, ("leave_", "")), (last, ("",))):
+            angle, pace = (
+                next(
+                    (v for each in prefixes if (v := old.value(f"{node}_{each}{name}")) is not None),
+                    None,
+                )
+                for name in ("angle_deg", "tangent")
+            )
+            if angle is None:
+                continue
+            radians = math.radians(angle)
+            size = math.hypot(stretch[0] * math.cos(radians), stretch[1] * math.sin(radians))
+            found[f"{node}_{prefixes[0]}tangent"] = (1.0 if pace is None else pace) * size
+    return found
 
 
 def _slope(carry: Carry, at: float) -> float:

@@ -7,6 +7,7 @@ from that design. A note tells of each value: its source, its range, what other 
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Mapping
 
@@ -20,7 +21,7 @@ from assoc_hull.creation.scaled_design import CarriedDesign, carried_places, car
 from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.forms.closure import close_halves, coefficients
-from assoc_hull.model.forms.two_halves import half_number
+from assoc_hull.model.forms.two_halves import half_fault, half_number
 from assoc_hull.model.tables import Particulars
 
 __all__ = ["DesignNote", "ShipType", "SixNumbers", "TypedDesign", "design_for", "with_areas"]
@@ -364,10 +365,14 @@ def with_areas(design: Design, cb: float, lcb: float) -> FormDefinition:
     moment = 2.0 * (mean * at - now.fullness * 2.0 * now.centroid / ship.length)
     run, entrance = (half_number(areas, f"{half}_centroid") for half in ("run", "entrance"))
     shares = np.linalg.solve([[1.0, 1.0], [run, entrance]], [more, moment])
-    return areas.having({
+    found = areas.having({
         f"{half}_area": half_number(areas, f"{half}_area") + float(share)
         for half, share in zip(("run", "entrance"), shares, strict=True)
     })  # fmt: skip
+    if any(half_fault(found, half) for half in ("run", "entrance")):
+        # Near the last centroid that a half can have: the parallel part moves a little instead.
+        return swing_areas(areas, mean, at).definition
+    return found
 
 
 def _area_notes(areas: FormDefinition, six: SixNumbers, way: str) -> list[DesignNote]:
@@ -439,6 +444,7 @@ def _lines(design: Design, parent: Design) -> Design:
             continue
         if not stations or place - stations[-1] >= _NEAREST:
             stations.append(place)
+    stations = _without_gaps(stations, design)
     digits = 1 if ship.draught >= 8.0 else 2
     heights = {z if abs(z - ship.draught) < 1e-6 else round(z, digits) for z in design.waterlines}
     return attrs.evolve(
@@ -447,6 +453,22 @@ def _lines(design: Design, parent: Design) -> Design:
         buttocks=tuple(round(0.5 * ship.breadth * each, digits) for each in _BUTTOCKS),
     )  # fmt: skip
 
+
+def _without_gaps(stations: list[float], design: Design) -> list[float]:
+    """Add stations where the swing left run or entrance between two far from one another."""
+    areas = design.definition("sectional_area")
+    ends = [10.0 * (1.0 + half_number(areas, each)) for each in ("run_end", "entrance_start")]
+    found = list(stations)
+    for low, high in itertools.pairwise(stations):
+        if high - low > _FARTHEST and not (low >= ends[0] - 0.1 and high <= ends[1] + 0.1):
+            count = math.ceil((high - low) / _FARTHEST)
+            between = np.linspace(low, high, count + 1)[1:-1].tolist()
+            found += [round(_ROUND * place) / _ROUND for place in between]
+    return sorted(found)
+
+
+_FARTHEST = 0.6
+"""Stations of run and entrance stand no farther apart, in twentieths of the length."""
 
 _ROUND = 20.0
 """Stations stand at multiples of a twentieth of a station spacing."""

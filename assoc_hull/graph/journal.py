@@ -388,12 +388,13 @@ class Journal:
 
     def columns(self) -> list[AnyColumn]:
         """Give every column that was written, each once, in the order of the first writes."""
-        found: list[AnyColumn] = []
+        # by identity, as columns have no order of their own; the order is that of the entries
+        found: dict[int, AnyColumn] = {}
         for entry in self.entries:
             column = getattr(entry, "column", None)
-            if column is not None and not any(column is each for each in found):
-                found.append(column)
-        return found
+            if column is not None:
+                found.setdefault(id(column), column)
+        return list(found.values())
 
     def idle(self) -> bool:
         """Tell whether every write put what stood there already.

@@ -23,6 +23,7 @@ from assoc_hull.arguments import (
     number,
     positive,
     regular_file,
+    shown,
     text,
 )
 from assoc_hull.errors import BadInputError, OutOfRangeError, RefusedEditError
@@ -260,6 +261,11 @@ def _from_six(
         raise BadInputError(f"{', '.join(missing)} is missing", where, "give it, or a design")
     if lcb is not None and percent is not None:
         raise BadInputError("lcb and lcb_percent are both given", where, "leave one out")
+    for word, value in {**six, "lcb": lcb, "lcb_percent": percent, **given}.items():
+        # a text is a value that nobody has looked at: of a form, in other units
+        if isinstance(value, str):
+            what = f"{word} is the text {shown(value)}"
+            raise BadInputError(what, where, "give a number, without quotes")
     numbers = {word: positive(value, word, where) for word, value in six.items()}
     if percent is not None:
         lcb = 0.01 * number(percent, "lcb_percent", where) * numbers["length"]
@@ -296,7 +302,7 @@ def _closed(hull: Hull, asked: SixNumbers, typed: TypedDesign) -> tuple[Hull, Ty
 
     design = typed.design
     for _ in range(4):
-        found = hull.hydrostatics()
+        found = hull.hydrostatics(estimate=False)
         more = asked.cb - found.cb
         ahead = asked.lcb - (found.lcb - 0.5 * asked.length)
         if max(abs(more), abs(ahead) / asked.length) <= _CLOSE:
@@ -304,19 +310,21 @@ def _closed(hull: Hull, asked: SixNumbers, typed: TypedDesign) -> tuple[Hull, Ty
         now = coefficients(design.definition("sectional_area"), design.particulars)
         assert now.block is not None
         areas = with_areas(design, now.block + more, now.centroid + ahead)
+        before = design.definition("sectional_area").values
+        changes = {name: v for name, v in areas.values.items() if v != before.get(name)}
         design = design.having(areas)
         try:
             with hull.edit("close CB and LCB") as edit:
-                edit.set_form(
-                    areas.name, run_area=areas.value("run_area"),
-                    entrance_area=areas.value("entrance_area"),
-                )  # fmt: skip
+                edit.set_form(areas.name, **changes)
         except (BadInputError, RefusedEditError):
             # A net that does not follow is made anew.
             state, _, typed = build_typed(attrs.evolve(typed, design=design))
             hull = Hull(state)
             design = typed.design
-    return Hull(hull.state), typed
+    hull = Hull(hull.state)
+    # What hydrostatics doubt is no ship: it refuses here, not when somebody asks for a volume.
+    hull.hydrostatics()
+    return hull, typed
 
 
 def open(path: str | os.PathLike[str], *, wait: float = 0.0, damaged: bool = False) -> Hull:

@@ -22,6 +22,7 @@ __all__ = [
     "GENERATED",
     "HALVES",
     "NODE_FIELDS",
+    "ON_FLATS",
     "RULES",
     "USES",
     "FormDefinition",
@@ -138,9 +139,12 @@ RULES = ("straight", "monotone", "form")
 
 GENERATED = (
     "section", "transom", "profile", "deck edge", "deck centre", "flat of side", "flat of bottom",
-    "waterline",
+    "waterline", "buttock",
 )  # fmt: skip
-"""What may be generated; of a waterline, where it comes onto a flat and leaves it."""
+"""What may be generated; of waterlines and buttocks, where they come onto a flat and leave it."""
+
+ON_FLATS = ("waterline", "buttock")
+"""Lines of which only the places where they come onto a flat and leave it are generated."""
 
 Mark = tuple[int, float]
 """A piece of a generated curve, and t (0 to 4) on it."""

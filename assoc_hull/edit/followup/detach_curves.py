@@ -17,7 +17,7 @@ from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import Column, ValueColumn
-from assoc_hull.model.form_definition import GeneratedCurve
+from assoc_hull.model.form_definition import ON_FLATS, GeneratedCurve
 from assoc_hull.model.generated_curves import attached_curves, points_given
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker
@@ -103,7 +103,7 @@ def whole(state: HullState, made: GeneratedCurve) -> bool:
     mine = np.isin(rows, own)
     if not np.array_equal(rows[mine], own):
         return False
-    return made.what == "waterline" or bool(mine[1:-1].all())
+    return made.what in ON_FLATS or bool(mine[1:-1].all())
 
 
 def off_definitions(state: HullState, curves: Iterable[int]) -> set[int]:

@@ -11,7 +11,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.model.form_definition import GeneratedCurve, Mark
+from assoc_hull.model.form_definition import ON_FLATS, GeneratedCurve, Mark
 from assoc_hull.model.forms.generate_points import marks_for
 from assoc_hull.model.forms.line_layout import layout_at
 from assoc_hull.model.generated_curves import (
@@ -175,12 +175,12 @@ def _rows(maker: Maker, made: GeneratedCurve, recipe: CurveRecipe) -> tuple[IntA
 
 
 def _thread(maker: Maker, made: GeneratedCurve, new: GeneratedCurve) -> None:
-    """Let the new points define the curve; only waterlines have others than their ends beside."""
+    """Let the new points define the curve; only lines on a flat have others than their ends."""
     state = maker.state
     old: IntArray = state.curves.rows[made.curve]
     rows = np.array(new.rows, np.int64)
     rest = old[~np.isin(old, np.union1d(np.array(made.rows, np.int64), rows))]
-    if made.what == "waterline":
+    if made.what in ON_FLATS:
         every = np.concatenate([rest, rows])
         maker.define(made.curve, every[np.argsort(state.rows.xyz[every, 0], kind="stable")])
         return

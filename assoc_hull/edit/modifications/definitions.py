@@ -19,7 +19,7 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError, BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.address import address
-from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.form_definition import ON_FLATS, FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.form_values import chain_of
 from assoc_hull.model.generated_curves import kept_rows
 from assoc_hull.model.kinds import Role, Sort
@@ -231,7 +231,7 @@ def reattach(edit: Transaction, line: int) -> None:
 def _refuse_others(state: HullState, made: GeneratedCurve) -> None:
     """Refuse where a point defines the curve that the definitions know nothing of."""
     rows: IntArray = state.curves.rows[made.curve]
-    if made.what == "waterline":
+    if made.what in ON_FLATS:
         return  # definitions give only the ends of its flat: other points may stand beside them
     for row in rows[1:-1].tolist():
         if row in made.rows:

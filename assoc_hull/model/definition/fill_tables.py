@@ -24,7 +24,7 @@ from assoc_hull.graph.table import ValueColumn
 from assoc_hull.model.births import Births
 from assoc_hull.model.definition.records import code_words
 from assoc_hull.model.features import Feature
-from assoc_hull.model.form_definition import GENERATED, FormDefinition, GeneratedCurve
+from assoc_hull.model.form_definition import GENERATED, ON_FLATS, FormDefinition, GeneratedCurve
 from assoc_hull.model.index import build_index
 from assoc_hull.model.kinds import OWN, BoundaryKind, Role, Sort, State
 from assoc_hull.model.make_objects import Maker
@@ -203,8 +203,8 @@ def _curve(state: HullState, record: Record, keys: ObjectNumbers) -> GeneratedCu
     marks = tuple(_mark(mark, where) for mark in record["marks"])
     pieces = record["layout"].split("+")
     beyond = [mark for mark in marks if mark[0] >= len(pieces)]
-    # a waterline has one layout word, and a mark at each end of its flat
-    if beyond and record["what"] != "waterline":
+    # a line on a flat has one layout word, and a mark at each end of the flat
+    if beyond and record["what"] not in ON_FLATS:
         raise contradiction(f"a mark on piece {beyond[0][0]}, of {len(pieces)}", where)
     attached = bool(record.get("attached", True))
     if len(marks) != len(rows):

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.model.form_definition import GeneratedCurve, Mark
+from assoc_hull.model.form_definition import ON_FLATS, GeneratedCurve, Mark
 from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.line_layout import (
     COURSES,
@@ -26,7 +26,7 @@ from assoc_hull.model.forms.line_layout import (
     deck_shape,
     ends_for,
     joints_of,
-    water_points,
+    flat_points,
 )
 from assoc_hull.model.forms.section_pieces import LineShape
 from assoc_hull.model.forms.sections import parts_at_draught, section_shape
@@ -40,6 +40,7 @@ __all__ = [
     "first_marks",
     "generated_points",
     "marks_for",
+    "marks_of",
     "marks_suffice",
     "point_kinds_at",
     "refine_marks",
@@ -211,38 +212,61 @@ def first_marks(layout: str) -> list[Mark]:
     return [*found, (len(tokens) - 1, 4.0)]
 
 
+@attrs.frozen(eq=False)
+class _Chosen:
+    """Some of the lines of a shape, as a shape of their own."""
+
+    shape: LineShape
+    numbers: IntArray
+
+    def at(self, row: IntArray, piece: IntArray, t: FloatArray) -> FloatArray:
+        return self.shape.at(self.numbers[row], piece, t)
+
+    def tangent(self, row: IntArray, piece: IntArray, t: FloatArray) -> FloatArray:
+        return self.shape.tangent(self.numbers[row], piece, t)
+
+
 def refine_marks(
     shape: LineShape,
     layout: str,
-    marks: Sequence[Mark],
+    marks: Sequence[Sequence[Mark]],
     ends: FloatArray | None,
     under: int,
-    where: str,
-) -> list[Mark]:
-    """Add marks to those of one curve, both ends among them, until the spline is near enough.
+    where: Sequence[str],
+) -> list[list[Mark]]:
+    """Add marks to those of n curves, both ends among them, until the splines are near enough.
 
-    `ends`, (1, 2, 3) m, are where the ends lie, on the shape if None; `under` is the number of
-    pieces below the draught, whose area counts; `where` names the line in messages.
+    `ends`, (n, 2, 3) m, are where the ends lie, on the shape if None; `under` is the number of
+    pieces below the draught, whose area counts; `where` names the lines in messages.
 
     Raises
     ------
     BadInputError
-        The shape is bent too sharply for a spline with points at a decent distance.
+        A shape is bent too sharply for a spline with points at a decent distance.
     """
-    found = list(marks)
+    found = [list(each) for each in marks]
+    left = np.arange(len(found))
     for _ in range(_ROUNDS):
-        whole = MarkedSplines.of(shape, layout, [found], ends)
-        halved = _to_halve(whole, under)
-        if halved is None:
-            return found
+        some = [found[number] for number in left.tolist()]
+        held = None if ends is None else ends[left]
+        whole = MarkedSplines.of(_Chosen(shape, left), layout, some, held)
+        halved = _to_halve(whole, under, len(left))
+        wanting = np.bincount(whole.row[halved], minlength=len(left)) > 0
         halved &= whole.high - whole.low > _SHORTEST
-        if not halved.any():
+        stuck = wanting & (np.bincount(whole.row[halved], minlength=len(left)) == 0)
+        if stuck.any():
+            left = left[stuck]
             break
         middle = 0.5 * (whole.low + whole.high)
-        extra = [(int(whole.piece[i]), float(middle[i])) for i in np.flatnonzero(halved)]
-        found = sorted([*found, *extra])
+        for i in np.flatnonzero(halved).tolist():
+            found[left[whole.row[i]]].append((int(whole.piece[i]), float(middle[i])))
+        left = left[wanting]
+        for number in left.tolist():
+            found[number].sort()
+        if not len(left):
+            return found
     raise BadInputError(
-        "the curve is bent too sharply to be held within 1 mm and its area", where,
+        "the curve is bent too sharply to be held within 1 mm and its area", where[int(left[0])],
         "give smaller curvatures, or tangents nearer to a quarter of the chord",
     )  # fmt: skip
 
@@ -267,19 +291,19 @@ def _enough_area(
     return np.asarray(np.abs(off) <= AREA_WITHIN * np.maximum(area, _LEAST_AREA))
 
 
-def _to_halve(whole: MarkedSplines, under: int) -> NDArray[np.bool_] | None:
-    """Tell which intervals of one curve to halve; None where all is near enough."""
+def _to_halve(whole: MarkedSplines, under: int, count: int) -> NDArray[np.bool_]:
+    """Tell which intervals of `count` curves to halve; none of a curve that is near enough."""
     far = whole.deviations() > WITHIN
-    if far.any():
-        return far
     if not under:
-        return None
+        return far
+    near = np.bincount(whole.row[far], minlength=count) == 0
     exact, spline = whole.areas(under)
-    if _enough_area(whole, exact, spline, 1)[0]:
-        return None
+    near &= ~_enough_area(whole, exact, spline, count)
     # an interval of the shortest length cannot be halved, so it must not set the measure
     off = np.where(whole.high - whole.low > _SHORTEST, np.abs(spline - exact), 0.0)
-    return np.asarray(off > 0.5 * off.max())
+    most = np.zeros(count)
+    np.maximum.at(most, whole.row, off)
+    return np.asarray(far | (near[whole.row] & (off > 0.5 * most[whole.row])))
 
 
 # --------------------------------------------------------------------------------------
@@ -311,6 +335,7 @@ _SETTLED = {"level": "keel_angle", "upright": "waterline_angle"}
 _BY_LINE = {
     "deck edge": ("deck_side", "deck_height"),
     "flat of bottom": ("flat_of_bottom", "profile"),
+    "buttock bottom": ("flat_of_bottom", "profile"),
     "waterline side": ("flat_of_side",),
     "waterline parallel": ("sectional_area", "design_waterline", "bilge_radius", "profile"),
 }
@@ -331,8 +356,8 @@ def definitions_read(curve: GeneratedCurve) -> tuple[str, ...]:
             found += ["profile", "deck_side", "deck_height"]
         settled = {_SETTLED[token] for token in tokens if token in _SETTLED}
         return tuple(use for use in dict.fromkeys(found) if use not in settled)
-    if curve.what == "waterline":
-        return _BY_LINE.get(f"waterline {curve.layout}", ())
+    if curve.what in ON_FLATS:
+        return _BY_LINE.get(f"{curve.what} {curve.layout}", ())
     return _BY_LINE.get(curve.what) or ((COURSES[curve.what],) if curve.what in COURSES else ())
 
 
@@ -353,7 +378,7 @@ def marks_for(
     what, layout : str
         What is generated, of which pieces.
     place : float, m
-        x of a section, z of a waterline.
+        x of a section, z of a waterline, y of a buttock.
     ends : (2, 3), m
         Of a section: where it meets profile and deck edge.
     known : sequence of Mark
@@ -375,20 +400,32 @@ def marks_for(
     BadInputError
         A curve that cannot be made, or not be held within 1 mm and 1e-6 of its area.
     """
-    if what == "waterline":
+    if what in ON_FLATS:
         marks: tuple[Mark, ...] = ((0, 0.0), (1, 0.0)) if layout else ()
         tangent = (int(PointKind.TANGENT),) * len(marks)
         return marks, tangent, np.tile((1.0, 0.0, 0.0), (len(marks), 1)), Ends()
     held = None if ends is None or what != "section" else np.asarray(ends, np.float64)[None]
-    shape = _shape(forms, what, layout, np.array([place]), held)
+    (found,) = marks_of(forms, what, layout, np.array([place]), held, [known])
+    kinds, directions = point_kinds_at(layout, found)
+    return found, tuple(kinds), directions, ends_for(layout)
+
+
+def marks_of(
+    forms: Forms,
+    what: str,
+    layout: str,
+    places: FloatArray,
+    ends: FloatArray | None,
+    known: Sequence[Sequence[Mark]],
+) -> list[tuple[Mark, ...]]:
+    """Give the marks of n lines of one layout, as `marks_for` gives those of one."""
+    shape = _shape(forms, what, layout, places, ends)
     under = _under(what, layout)
     begin = first_marks(layout)
-    start = sorted({begin[0], begin[-1], *known}) if known else begin
-    where = f"on the {what}" + (f" x = {place:g} m" if under else "")
-    found = refine_marks(shape, layout, start, held, under, where)
-    chosen = tuple(found[1:-1] if what == "section" else found)
-    kinds, directions = point_kinds_at(layout, chosen)
-    return chosen, tuple(kinds), directions, ends_for(layout)
+    start = [sorted({begin[0], begin[-1], *each}) if each else begin for each in known]
+    where = [f"on the {what}" + (f" x = {place:g} m" if under else "") for place in places.tolist()]
+    found = refine_marks(shape, layout, start, ends, under, where)
+    return [tuple(each[1:-1] if what == "section" else each) for each in found]
 
 
 def generated_points(
@@ -396,7 +433,7 @@ def generated_points(
 ) -> list[FloatArray]:
     """Give the points, (k, 3) m each, of m generated curves in the order of their marks.
 
-    `places` (m,) are x of a section, z of a waterline; `ends`, (m, 2, 3) m, are where sections
+    `places` (m,) are x of a section, z of a waterline, y of a buttock; `ends`, (m, 2, 3) m, are where sections
     meet profile and deck edge. Both are without meaning for other lines.
 
     Raises
@@ -406,9 +443,9 @@ def generated_points(
     """
     found: list[FloatArray] = [np.zeros((0, 3))] * len(curves)
     for (what, layout), numbers in _groups(curves):
-        if what == "waterline":
+        if what in ON_FLATS:
             for number in numbers.tolist():
-                found[number] = _on_water(forms, curves[number], float(places[number]))
+                found[number] = _on_flat(forms, curves[number], float(places[number]))
             continue
         shape = _shape(forms, what, layout, places[numbers], ends[numbers])
         marks = [curves[number].marks for number in numbers.tolist()]
@@ -430,7 +467,7 @@ def marks_suffice(
     """
     found = np.ones(len(curves), np.bool_)
     for (what, layout), numbers in _groups(curves):
-        if what == "waterline":
+        if what in ON_FLATS:
             continue
         shape = _shape(forms, what, layout, places[numbers], ends[numbers])
         own = ends[numbers] if what == "section" else None
@@ -455,7 +492,7 @@ def _groups(
 
 def _on_pieces(curve: GeneratedCurve) -> None:
     """Refuse marks that lie on no piece."""
-    count = 2 if curve.what == "waterline" else curve.layout.count("+") + 1
+    count = 2 if curve.what in ON_FLATS else curve.layout.count("+") + 1
     for piece, t in curve.marks:
         if not (0 <= piece < count and 0.0 <= t <= 4.0):
             raise BadInputError(
@@ -502,14 +539,14 @@ def _own_ends(forms: Forms, places: FloatArray) -> FloatArray:
     return found
 
 
-def _on_water(forms: Forms, curve: GeneratedCurve, z: float) -> FloatArray:
-    """Give the places where a waterline comes onto a flat and leaves it."""
+def _on_flat(forms: Forms, curve: GeneratedCurve, place: float) -> FloatArray:
+    """Give where a waterline or a buttock comes onto a flat and leaves it."""
     if not curve.layout:
         return np.zeros((0, 3))
-    points = water_points(forms, curve.layout, z)
+    points = flat_points(forms, curve.what, curve.layout, place)
     if not np.isfinite(points).all():
         raise BadInputError(
-            f"the waterline does not run along the flat ({curve.layout}) any more",
-            f"at z = {z:g} m", "let the flat reach its height",
+            f"the {curve.what} does not run along the flat ({curve.layout}) any more",
+            f"at {'yz'[curve.what == 'waterline']} = {place:g} m", "let the flat reach it",
         )  # fmt: skip
     return points[[mark[0] for mark in curve.marks]]

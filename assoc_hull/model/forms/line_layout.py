@@ -27,15 +27,16 @@ __all__ = [
     "COURSES",
     "CourseShape",
     "DeckShape",
+    "buttock_layout",
     "course_layout",
     "course_shape",
     "deck_layout",
     "deck_shape",
     "ends_for",
+    "flat_points",
     "joints_of",
     "layout_at",
     "water_layout",
-    "water_points",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -244,7 +245,8 @@ def _stops(forms: Forms) -> list[tuple[float, str]]:
 
 
 # --------------------------------------------------------------------------------------
-# Waterlines: between the two places where they come onto a flat and leave it they are straight.
+# Waterlines, buttocks: between the two places where they come onto a flat and leave it they are
+# straight.
 
 _LEAST_FLAT = 0.1
 """A shorter flat (m) is none."""
@@ -264,11 +266,20 @@ def water_layout(forms: Forms, z: float) -> str:
     return ""
 
 
-def water_points(forms: Forms, layout: str, z: float) -> FloatArray:
-    """Give the two places, (2, 3) m, where a waterline comes onto its flat and leaves it.
+def buttock_layout(forms: Forms, y: float) -> str:
+    """Give ``"bottom"`` where a buttock at y (m) runs along the flat of bottom, else ``""``."""
+    return "" if _bottom(forms, y) is None else "bottom"
 
-    `layout` is from `water_layout`; nan where the flat no longer reaches the height z (m).
+
+def flat_points(forms: Forms, what: str, layout: str, place: float) -> FloatArray:
+    """Give the two places, (2, 3) m, where a line comes onto its flat and leaves it.
+
+    `what` is a waterline at z = `place` (m) or a buttock at y, `layout` from `water_layout` or
+    `buttock_layout`; nan where the flat no longer reaches so far.
     """
+    if what == "buttock":
+        return np.full((2, 3), math.nan) if (ends := _bottom(forms, place)) is None else ends
+    z = place
     found = np.full((2, 3), z)
     if layout == "side":
         ends = _side(forms, z)
@@ -293,6 +304,26 @@ def _side(forms: Forms, z: float) -> tuple[float, float] | None:
     between = float(chain.ordinate(np.array([0.5 * (low + high)]))[0])
     # the border of the flat must lie below the waterline between them: the flat is above its border
     return (low, high) if high - low > _LEAST_FLAT and between < z else None
+
+
+def _bottom(forms: Forms, y: float) -> FloatArray | None:
+    """Give where a buttock comes onto the flat of bottom and leaves it, (2, 3) m."""
+    if not forms.has("flat_of_bottom"):
+        return None
+    chain = forms.chain("flat_of_bottom")
+    places = chain.meets(1, y)
+    if len(places) != 2:
+        return None
+    piece, t = (np.array(each) for each in zip(*places, strict=True))
+    low, high = chain.at(piece, t)[:, 0].tolist()
+    if not high - low > _LEAST_FLAT:
+        return None
+    heights = [forms.contour(x)[:1] for x in (low, high)]
+    between = float(chain.ordinate(np.array([0.5 * (low + high)]))[0])
+    # on a raked keel the line is not level where it leaves the flat
+    if heights[0] != heights[1] or not heights[0] or between <= y:
+        return None
+    return np.array([(x, y, heights[0][0]) for x in (low, high)])
 
 
 # --------------------------------------------------------------------------------------
@@ -335,9 +366,9 @@ _STRAIGHT = {"level": _ACROSS, "upright": _UP, "up": _UP, "down": (0.0, 0.0, -1.
 
 
 def layout_at(forms: Forms, what: str, place: float, part: int = 0) -> str:
-    """Give the layout of a line; empty where nothing is generated on a waterline.
+    """Give the layout of a line; empty where nothing is generated on a line.
 
-    `place` (m) is x of a section, z of a waterline, without meaning for others; `part` is the
+    `place` (m) is x of a section, z of a waterline, y of a buttock, without meaning for others; `part` is the
     number of the curve, from below, of a section in several.
 
     Raises
@@ -349,6 +380,8 @@ def layout_at(forms: Forms, what: str, place: float, part: int = 0) -> str:
         return _section(forms, place, part)
     if what == "waterline":
         return water_layout(forms, place)
+    if what == "buttock":
+        return buttock_layout(forms, place)
     if what == "deck edge":
         return deck_layout(forms)
     if what in COURSES:
