@@ -19,7 +19,8 @@ class Finding:
     kind : str
         ``failed``, ``blocked``, ``not finite``, ``fold``, ``close``, ``off curve``,
         ``off plane``, ``sense``, ``gap``, ``links``, ``orphan``, ``twin``, ``association``,
-        ``ruling``, ``ring``, ``tables``, ``feature``, ``detached``, ``tunnel``, or the note ``role``.
+        ``ruling``, ``ring``, ``tables``, ``feature``, ``detached``, ``tunnel``, or the
+        note ``role``.
     object : str
         Address of the object.
     place : (float, float, float) or None, m
