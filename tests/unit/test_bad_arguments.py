@@ -186,6 +186,7 @@ CURVES: dict[str, Given] = {
     "curvature": {"t": 1.0},
     "closest": {"p": PLACE},
     "polyline": {"per_segment": 8},
+    "meet": {"plane": ((1.0, 0.0, 0.0), 40.0)},
 }
 LINES: dict[str, Given] = {"meet": {"plane": ((1.0, 0.0, 0.0), 40.0)}}
 SHIP = ah.Particulars("a", 100.0, 16.0, 9.0, 6.0)
