@@ -115,7 +115,8 @@ HULL: dict[str, Given] = {
     "why": {"thing": POINT, "step": None, "least": 1e-4},
     "check": {"notes": False},
     "verify": {"relative": 0.0},
-    "graph": {"around": POINT, "up": 1, "down": 1, "only": "two-way", "edit": None},
+    "graph": {"around": POINT, "up": 1, "down": 1, "only": "two-way", "step": None},
+    "meet": {"line": "WL 2.5", "plane": None, "x": 40.0, "y": None, "z": None},
     "dependencies": {"points": False},
     "half_breadth": {"x": 40.0, "z": 2.5},
     "tunnel": {"name": "thruster", "x": 40.0, "z": 2.5, "radius": 0.5},
@@ -188,6 +189,7 @@ CURVES: dict[str, Given] = {
     "curvature": {"t": 1.0},
     "closest": {"p": PLACE},
     "polyline": {"per_segment": 8},
+    "meet": {"plane": ((1.0, 0.0, 0.0), 40.0)},
 }
 LINES: dict[str, Given] = {"meet": {"plane": ((1.0, 0.0, 0.0), 40.0)}}
 SHIP = ah.Particulars("a", 100.0, 16.0, 9.0, 6.0)

@@ -64,7 +64,7 @@ _SEEN = 1e-3
 class _ClassColumn(PlateColumn):
     """The class, in print with a question mark where it is in doubt."""
 
-    def printed(self, plate: Any) -> str:
+    def printed(self, plate: HullPlate) -> str:
         """Write the class."""
         return super().printed(plate) + "?" * plate.is_doubtful
 
