@@ -17,11 +17,11 @@ def hull() -> ah.Hull:
 
 def test_a_line_meets_a_plane_where_its_neighbours_would_cross_it(hull: ah.Hull) -> None:
     """At a crossing of the net it is that place; a line in the plane, or beside it, meets none."""
-    crossing = hull["WL 3.125 x ST 3"]
+    crossing = hull.points["WL 3.125 x ST 3"]
     met = hull.meet("wl 3.125", x=crossing.x)
     np.testing.assert_allclose(met, [crossing.position], atol=1e-9)
-    assert np.array_equal(met, hull.meet(hull["WL 3.125"], ah.Plane.across("x", crossing.x)))
-    (curve,) = hull["WL 3.125"].curves
+    assert np.array_equal(met, hull.meet(hull.lines["WL 3.125"], ah.Plane.across("x", crossing.x)))
+    (curve,) = hull.lines["WL 3.125"].curves
     assert np.array_equal(met, hull.meet(curve, ((1.0, 0.0, 0.0), crossing.x)))
     assert hull.meet("WL 3.125", z=3.125).shape == (0, 3)
     assert hull.meet("WL 3.125", x=-50.0).shape == (0, 3)

@@ -737,9 +737,8 @@ def _on_boundaries(state: HullState, rows: IntArray) -> np.typing.NDArray[np.boo
     """Tell which points (k,) lie on boundary curves."""
     curves = state.rows.curve[rows]
     lines = state.curves.line[np.maximum(curves, 0)]
-    found: np.typing.NDArray[np.bool_] = ((curves >= 0) & (state.lines.boundary[lines] >= 0)).any(
-        axis=1
-    )
+    outer = (curves >= 0) & (state.lines.boundary[lines] >= 0)
+    found: np.typing.NDArray[np.bool_] = outer[:, 0] | outer[:, 1]
     return found
 
 

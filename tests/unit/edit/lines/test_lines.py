@@ -166,4 +166,6 @@ def test_a_line_without_a_name_is_called_in_the_measure_of_its_group() -> None:
         given = [("waterlines", 3.33), ("sections", 33.0), ("sections", 33.0005), ("buttocks", 2.5)]
         names = [edit.add_line(group, place).name for group, place in given]
     assert names == ["WL 0.478", "ST 5.413", "ST 5.4135", "BTK 0.287"]
-    assert hull["WL 0.478"].plane.offset == 3.33
+    plane = hull.lines["WL 0.478"].plane
+    assert plane is not None
+    assert plane.offset == 3.33

@@ -231,7 +231,7 @@ def test_a_shift_that_prints_as_nothing_is_counted_and_not_listed(parent: ah.Hul
     """Lines that moved by less than 0.05 mm are one number."""
     with taken_back(ah.examples.wigley()) as hull:
         with hull.edit("a hair") as edit:
-            edit.move("WL 2.5 x ST 7", y=hull["WL 2.5 x ST 7"].y + 2e-5)
+            edit.move("WL 2.5 x ST 7", y=hull.points["WL 2.5 x ST 7"].y + 2e-5)
         found = parent.compare(hull)
         text = str(found)
     moved = len(found.of("moved"))
