@@ -537,7 +537,7 @@ def test_a_crossing_that_another_line_drives_names_its_driver(fresh_series60_70:
 def test_a_lead_whose_end_would_carry_a_corner_away_leaves_the_corner(shipped: Shipped) -> None:
     """BTK 6 of the 180 m ship ends on the transom some mm beside the deck edge, and would turn."""
     hull = shipped("bulk_carrier_180m")
-    x, y, z = hull["ST 0"].curves[0].at(4.0)
+    x, y, z = hull.lines["ST 0"].curves[0].at(4.0)
     corner = {name: hull.points[name].position for name in ("ST -0.4 x deck edge",)}
     before = hull.fingerprint
     with hull.edit("lead") as edit:
