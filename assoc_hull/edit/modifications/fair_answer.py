@@ -178,6 +178,9 @@ class PullAsked:
 _RADII = (1.0, 1.5, 2.5, 4.0, 6.0, 9.0, 14.0)
 """m, of a ship of 100 m and more."""
 
+_BENT = 0.02
+"""Part of a stretch by which its ends may come out otherwise than foretold."""
+
 _FULL_SIZE = 100.0
 _RIM, _LEAST = 0.15, 0.02
 
@@ -736,9 +739,9 @@ class _Search:
 def _on_boundaries(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:
     """Tell which points (k,) lie on boundary curves."""
     curves = state.rows.curve[rows]
-    lines = state.curves.line[np.maximum(curves, 0)]
-    outer = (curves >= 0) & (state.lines.boundary[lines] >= 0)
-    found: np.typing.NDArray[np.bool_] = outer[:, 0] | outer[:, 1]
+    boundary = state.lines.boundary[state.curves.line[np.maximum(curves, 0)]] >= 0
+    one, other = ((curves >= 0) & boundary).T
+    found: np.typing.NDArray[np.bool_] = one | other
     return found
 
 
@@ -800,11 +803,17 @@ def _widest(state: HullState, lead: LineLed, free: IntArray) -> ShapeAsked | Non
     order, before = state.curves.rows.data[curve], was.curves.rows.data[curve]
     old = np.flatnonzero(np.isin(order, before))
     at = np.flatnonzero(np.isin(order, lead.rows))
+    if not len(at) or not len(old):
+        return None  # what was asked has gone in the same edit, which its end refuses
     beside = np.searchsorted(old, at)
     low, high = (beside - ~np.isin(at, old)).clip(0), beside.clip(None, len(old) - 1)
     rows = np.unique(order[old[np.concatenate([low, high])]])
     mine = attrs.evolve(lead, rows=rows, to=state.rows.xyz[rows])
-    return _led_shape(state, lead, find_stretch(was, mine, rows, free))
+    found = _led_shape(state, lead, find_stretch(was, mine, rows, free))
+    # The point that is put beside the line bends it, and with it what is measured along it.
+    begin, end = found.stretch
+    more = _BENT * (end - begin)
+    return attrs.evolve(found, stretch=(begin - more, end + more))
 
 
 def _shapes(state: HullState) -> dict[int, SplineBatch]:

@@ -14,6 +14,7 @@ from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.node import Node
 from tests.conftest import Shipped
 from tests.formed import formed
+from tests.net_strategies import fresh
 
 _POINT = "WL 2.5 x ST 7"
 
@@ -202,3 +203,34 @@ def test_definitions_with_other_values_are_dirty_with_all_that_is_made_of_them()
         curves = {each.id for each in dirty.curves}
     assert edit.report is not None
     assert set(edit.report.relofted) <= curves
+
+
+def test_what_lies_beyond_the_end_of_a_section_that_leads_may_be_dirty() -> None:
+    """A point beside the line bends it, and so where the deck edge lies along it."""
+    hull = fresh(0)
+    curve = hull.lines["ST 5"].curves[0]
+    place = curve.at(0.884 * curve.span) + np.array([0.0, 0.03125, 0.0])
+    with hull.edit("lead") as edit:
+        edit.lead(curve, [place])
+        dirty = {each.id for each in hull.dirty.curves}
+    assert edit.report is not None
+    assert "boundary:deck edge/1" in edit.report.relofted
+    assert set(edit.report.relofted) <= dirty
+
+
+def test_a_lead_whose_line_goes_in_the_same_edit_is_dirty_until_its_end_refuses_it() -> None:
+    """Asking in between raises nothing."""
+    hull = fresh(0)
+    x, y, z = hull.lines["ST 5"].curves[0].at(3.0)
+    seen = list[bool]()
+
+    def lead_and_remove() -> None:
+        with hull.edit("lead") as edit:
+            edit.lead("ST 5", [(x, y + 0.01, z)])
+            edit.remove_line("ST 5")
+            seen.append(bool(hull.dirty))
+
+    with pytest.raises(BadInputError, match="use two edits"):
+        lead_and_remove()
+    assert seen == [True]
+    assert not hull.dirty
