@@ -107,9 +107,10 @@ def swing_areas(definition: FormDefinition, fullness: float, centroid: float) ->
     if ends is not None and ends[1] - ends[0] < _GAP:
         middle = float(np.clip(0.5 * (ends[0] + ends[1]), -0.25, 0.2))
         return _both_areas(definition, fullness, centroid, middle - 0.5 * _GAP, middle + 0.5 * _GAP)
-    for half, inner in (("entrance", 1.0), ("run", -1.0)):
-        if ends is None or inner * ends[half == "entrance"] > 1.0 - _SHORTEST[0]:
-            return _shortened(definition, fullness, centroid, half)
+    if ends is None or ends[1] > 1.0 - _SHORTEST[0]:
+        return _shortened(definition, fullness, centroid, "entrance")
+    if ends[0] < _SHORTEST[0] - 1.0:
+        return _shortened(definition, fullness, centroid, "run")
     found = scaled_half(scaled_half(definition, "run", ends[0]), "entrance", ends[1])
     return SwungAreas(_sound(found), "both halves keep their fullness; the parallel part moves")
 

@@ -146,9 +146,7 @@ def section_curves(
         alike.setdefault(layout, []).append(number)
     found: list[DrawnCurve | None] = [None] * len(stands)
     for layout, numbers in alike.items():
-        names, x, ends = (
-            [stands[number][part] for number in numbers] for part in range(3)
-        )
+        names, x, ends = zip(*(stands[number][:3] for number in numbers), strict=True)
         sections = _sections(forms, names, np.array(x), np.array(ends), layout)
         for number, section in zip(numbers, sections, strict=True):
             found[number] = section

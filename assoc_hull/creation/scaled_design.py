@@ -218,8 +218,7 @@ def _paces(old: FormDefinition, new: FormDefinition) -> dict[str, float | None]:
     found: dict[str, float | None] = {}
     for first, last in itertools.pairwise(old.nodes):
         steps = np.array([
-            [float(each.value(f"{last}_{axis}") or 0.0) - float(each.value(f"{first}_{axis}") or 0.0)
-             for axis in "xy"]
+            [_plain(each, f"{last}_{axis}") - _plain(each, f"{first}_{axis}") for axis in "xy"]
             for each in (old, new)
         ])  # fmt: skip
         if not steps.all():
@@ -229,7 +228,11 @@ def _paces(old: FormDefinition, new: FormDefinition) -> dict[str, float | None]:
         for node, prefixes in ((first, ("leave_", "")), (last, ("",))):
             angle, pace = (
                 next(
-                    (v for each in prefixes if (v := old.value(f"{node}_{each}{name}")) is not None),
+                    (
+                        v
+                        for each in prefixes
+                        if (v := old.value(f"{node}_{each}{name}")) is not None
+                    ),
                     None,
                 )
                 for name in ("angle_deg", "tangent")
@@ -239,6 +242,12 @@ def _paces(old: FormDefinition, new: FormDefinition) -> dict[str, float | None]:
             radians = math.radians(angle)
             size = math.hypot(stretch[0] * math.cos(radians), stretch[1] * math.sin(radians))
             found[f"{node}_{prefixes[0]}tangent"] = (1.0 if pace is None else pace) * size
+    return found
+
+
+def _plain(course: FormDefinition, name: str) -> float:
+    found = course.value(name)
+    assert found is not None
     return found
 
 

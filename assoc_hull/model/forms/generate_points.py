@@ -25,8 +25,8 @@ from assoc_hull.model.forms.line_layout import (
     course_shape,
     deck_shape,
     ends_for,
-    joints_of,
     flat_points,
+    joints_of,
 )
 from assoc_hull.model.forms.section_pieces import LineShape
 from assoc_hull.model.forms.sections import parts_at_draught, section_shape
@@ -433,8 +433,8 @@ def generated_points(
 ) -> list[FloatArray]:
     """Give the points, (k, 3) m each, of m generated curves in the order of their marks.
 
-    `places` (m,) are x of a section, z of a waterline, y of a buttock; `ends`, (m, 2, 3) m, are where sections
-    meet profile and deck edge. Both are without meaning for other lines.
+    `places` (m,) are x of a section, z of a waterline, y of a buttock; `ends`, (m, 2, 3) m, are
+    where sections meet profile and deck edge. Both are without meaning for other lines.
 
     Raises
     ------

@@ -278,7 +278,8 @@ def flat_points(forms: Forms, what: str, layout: str, place: float) -> FloatArra
     `buttock_layout`; nan where the flat no longer reaches so far.
     """
     if what == "buttock":
-        return np.full((2, 3), math.nan) if (ends := _bottom(forms, place)) is None else ends
+        level = _bottom(forms, place)
+        return np.full((2, 3), math.nan) if level is None else level
     z = place
     found = np.full((2, 3), z)
     if layout == "side":
@@ -368,8 +369,8 @@ _STRAIGHT = {"level": _ACROSS, "upright": _UP, "up": _UP, "down": (0.0, 0.0, -1.
 def layout_at(forms: Forms, what: str, place: float, part: int = 0) -> str:
     """Give the layout of a line; empty where nothing is generated on a line.
 
-    `place` (m) is x of a section, z of a waterline, y of a buttock, without meaning for others; `part` is the
-    number of the curve, from below, of a section in several.
+    `place` (m) is x of a section, z of a waterline, y of a buttock, without meaning for others;
+    `part` is the number of the curve, from below, of a section in several.
 
     Raises
     ------

@@ -7,10 +7,10 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.creation.area_swing import half_sums, swing_areas
 from assoc_hull.creation.six_numbers import SixNumbers, design_for
-from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.hull.hull import Hull
 from assoc_hull.model.forms.closure import coefficients
+from assoc_hull.model.forms.two_halves import half_number
 from assoc_hull.shipped.ship_types import SHIP_TYPES, ship_type
 
 SIX = {"length": 100.0, "breadth": 16.0, "draught": 6.5, "depth": 9.0, "cb": 0.70, "lcb": 0.4}
@@ -106,8 +106,20 @@ def test_number_out_of_its_range_is_told_and_far_out_refused() -> None:
         ({"type": "trawler"}, "cannot be made well"),
         ({"type": "submarine"}, "submarine"),
         ({"breadth": -16.0}, "breadth"),
+        ({"length": "100"}, "length is the text '100'.*give a number"),
+        ({"cw": "0.8"}, "cw is the text"),
     ],
-    ids=["no cb", "no lcb", "two lcb", "two bilges", "trawler", "no type", "negative"],
+    ids=[
+        "no cb",
+        "no lcb",
+        "two lcb",
+        "two bilges",
+        "trawler",
+        "no type",
+        "negative",
+        "text",
+        "text beside",
+    ],
 )
 def test_mistakes_are_named(more: dict[str, object], words: str) -> None:
     """By an error of the family."""
@@ -126,16 +138,54 @@ def test_a_type_is_found_however_it_is_written() -> None:
     assert ship_type(" Container  Ship") is SHIP_TYPES["container ship"]
 
 
-def test_what_dips_below_the_base_line_is_told_and_no_ship_where_it_is_much(cargo: Hull) -> None:
-    """A note names the line and how far; more than half a percent of the draught is refused."""
-    (note,) = [each for each in cargo.notes if each.name == "lowest place of the net"]
+@pytest.mark.parametrize(
+    "six",
+    [
+        SIX | {"type": "general cargo"},
+        {
+            "type": "ro-ro", "length": 147.4, "breadth": 20.47, "draught": 4.64, "depth": 10.29,
+            "cb": 0.637, "lcb": -1.503,
+        },
+    ],
+    ids=["cargo", "flat ro-ro"],
+)  # fmt: skip
+def test_no_line_goes_below_the_base_line_by_more_than_a_millimetre(six: dict[str, object]) -> None:
+    """Buttocks are straight on the flat of bottom; contours keep their shape when they flatten."""
+    hull = ah.create(**six)  # type: ignore[arg-type]
     lowest = min(
-        float(sample(cargo.state.spline(curve), 64)[1][:, 2].min())
-        for curve in cargo.state.live("curves").tolist()
+        float(sample(hull.state.spline(curve), 64)[1][:, 2].min())
+        for curve in hull.state.live("curves").tolist()
     )
-    assert note.value == pytest.approx(lowest, abs=1e-4)
-    assert -0.05 < note.value < -1e-3
-    with pytest.raises(BadInputError, match="below the base line"):
-        ah.create(
-            type="ro-ro", length=130.0, breadth=22.0, draught=5.8, depth=13.0, cb=0.62, lcb=-2.0
-        )
+    assert lowest > -1e-3
+    assert not [each for each in hull.notes if each.name == "lowest place of the net"]
+    flats = [each for each in hull.state.generated if each.what == "buttock" and each.rows]
+    assert len(flats) >= 4
+    for each in flats:
+        places = hull.state.rows.xyz[list(each.rows)]
+        assert places[:, 2].tolist() == [0.0, 0.0]
+        assert places[0, 0] < places[1, 0]
+
+
+def test_flats_of_buttocks_follow_their_definition(cargo: Hull) -> None:
+    """A wider flat of bottom moves the places where buttocks come onto it."""
+    hull = cargo.snapshot()
+    name = next(each.name for each in hull.state.definitions if each.use == "flat_of_bottom")
+    (first,) = [e for e in hull.state.generated if e.what == "buttock" and e.rows][:1]
+    before = hull.state.rows.xyz[list(first.rows), 0].copy()
+    with hull.edit("longer flat") as edit:
+        edit.set_form(name, fore_x=(hull.definitions[name].values["fore_x"] or 0.0) + 1.0)
+    after = hull.state.rows.xyz[list(first.rows), 0]
+    assert after[1] > before[1]
+    assert after[0] == before[0]
+    assert not hull.verify()
+
+
+def test_full_ship_with_its_buoyancy_far_ahead_has_a_short_full_entrance() -> None:
+    """Where a fifth of the length leaves no curve of areas, the entrance is shorter."""
+    six = SixNumbers(240.0, 40.0, 16.0, 22.0, 0.834, 0.0339 * 240.0)
+    design = design_for(SHIP_TYPES["tanker"], six).design
+    areas = design.definition("sectional_area")
+    assert 0.32 <= 1.0 - half_number(areas, "entrance_start") < 0.4
+    found = coefficients(areas, design.particulars)
+    assert found.block == pytest.approx(0.834, abs=1e-12)
+    assert found.centroid == pytest.approx(0.0339 * 240.0, abs=1e-9)
