@@ -53,7 +53,7 @@ def plain(value: Any) -> Any:
     >>> from assoc_hull.cli.output import plain
     >>> from assoc_hull.edit.report import Movement
     >>> plain([Movement("P", float("inf"), (0.0, 1.0, 2.0)), Path("a")])
-    [{'point': 'P', 'distance': None, 'place': [0.0, 1.0, 2.0]}, 'a']
+    [{'point': 'P', 'distance': None, 'place': [0.0, 1.0, 2.0], 'name': ''}, 'a']
     """
     if isinstance(value, Why):
         return why_document(value)
