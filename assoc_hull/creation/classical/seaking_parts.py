@@ -157,11 +157,11 @@ class DeckBlock:
             if not low <= x <= high:
                 what = f"{self.name}: {word} is x={digits(x)}, where no deck is"
                 raise GeometryError(what, f"give {digits(low)} to {digits(high)}", {"x": x})
-        x = np.linspace(self.first, self.last, _LOOKED)
-        wide = 2.0 * deck.at(x)[:, 0]
+        places = np.linspace(self.first, self.last, _LOOKED)
+        wide = 2.0 * deck.at(places)[:, 0]
         k = int(wide.argmin())
         if wide[k] < self.breadth * (1.0 - 1e-12):
-            at, most = float(x[k]), float(wide[k])
+            at, most = float(places[k]), float(wide[k])
             told = {"breadth": self.breadth, "x": at, "deck_breadth": most}
             broad = f"{self.name}: breadth {digits(self.breadth)}"
             what = f"{broad} exceeds the deck breadth at x={digits(at)}"
