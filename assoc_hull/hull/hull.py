@@ -103,6 +103,7 @@ if TYPE_CHECKING:
     from assoc_hull.hull.studies import Study
     from assoc_hull.hull.variants import Jumboised, Shifted, Variation
     from assoc_hull.io.hull_file.saving import Saved
+    from assoc_hull.model.attached_body import AttachedBody
     from assoc_hull.model.definition.verify import Difference
     from assoc_hull.model.form_definition import FormDefinition
     from assoc_hull.model.objects import FeatureHandle
@@ -223,6 +224,11 @@ class Hull:
 
         found = {each.name: each for each in kept_tunnels(self.state)}
         return NamedMapping("tunnel", found, spoken=True)
+
+    @property
+    def bodies(self) -> Mapping[str, AttachedBody]:
+        """Hatches, deck houses, boxes and bossings beside the net by name; no part of the shell."""
+        return NamedMapping("body", {each.name: each for each in self.state.bodies}, spoken=True)
 
     @property
     def definitions(self) -> Mapping[str, FormDefinition]:

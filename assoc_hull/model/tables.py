@@ -35,6 +35,7 @@ from assoc_hull.graph.table import (
     vectors,
     writes_begun,
 )
+from assoc_hull.model.attached_body import AttachedBody
 from assoc_hull.model.births import Births
 from assoc_hull.model.dirty_nodes import CLEAN, DirtyNodes
 from assoc_hull.model.features import Feature
@@ -371,6 +372,7 @@ class HullSettings(Table):
     associations: ValueColumn[tuple[Association, ...]] = values(())
     rulings: ValueColumn[tuple[Ruling, ...]] = values(())
     tunnels: ValueColumn[tuple[TunnelDefinition, ...]] = values(())
+    bodies: ValueColumn[tuple[AttachedBody, ...]] = values(())
     births: ValueColumn[Births] = values_given()
     failed: ValueColumn[tuple[int, ...]] = values(())
     particulars: ValueColumn[Particulars] = values_given()
@@ -564,6 +566,11 @@ class HullState:
     def tunnels(self) -> tuple[TunnelDefinition, ...]:
         """The tunnels that the hull holds, by name."""
         return self.settings.tunnels[0]
+
+    @property
+    def bodies(self) -> tuple[AttachedBody, ...]:
+        """Bodies beside the net, by name."""
+        return self.settings.bodies[0]
 
     @property
     def features(self) -> tuple[Feature, ...]:

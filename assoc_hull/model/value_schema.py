@@ -26,6 +26,7 @@ from assoc_hull.arguments import shown
 
 __all__ = [
     "COUNT",
+    "INDEX",
     "NAME",
     "NOT_NEGATIVE",
     "POSITIVE",
@@ -125,6 +126,11 @@ def _count(value: object) -> None:
         raise WrongValueError(f"{shown(value)} is no whole number from 1 up")
 
 
+def _index(value: object) -> None:
+    if type(value) is not int or not 0 <= value <= _LARGEST_COUNT:
+        raise WrongValueError(f"{shown(value)} is no whole number from 0 up")
+
+
 TEXT = ValueSchema(_text, {"type": "string"})
 NAME = ValueSchema(_name, {"type": "string", "minLength": 1})
 TRUTH = ValueSchema(_truth, {"type": "boolean"})
@@ -136,6 +142,7 @@ POSITIVE = ValueSchema(
     _positive, {"type": "number", "exclusiveMinimum": 0, "maximum": _LARGEST_SIZE}
 )
 COUNT = ValueSchema(_count, {"type": "integer", "minimum": 1, "maximum": _LARGEST_COUNT})
+INDEX = ValueSchema(_index, {"type": "integer", "minimum": 0, "maximum": _LARGEST_COUNT})
 
 
 def described(form: ValueSchema, description: str) -> ValueSchema:

@@ -10,11 +10,13 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from assoc_hull.arguments import shown
+from assoc_hull.creation.classical.bodies_beside import put_bodies
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.lines.add_line import add_line
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
+from assoc_hull.model.attached_body import AttachedBody
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
@@ -80,6 +82,10 @@ class ClassicalDefinition(Protocol):
         """Give sections, waterlines and boundary lines."""
         ...
 
+    def bodies(self) -> tuple[AttachedBody, ...]:
+        """Give what stands beside the net: hatches, deck houses, boxes, appendages."""
+        ...
+
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give its own exact numbers, beside those of a net of it if one is handed in."""
         ...
@@ -128,4 +134,7 @@ def classical_net(
         for place in places:
             with Transaction(document, f"cut {group} {place:g}") as edit:
                 add_line(edit, group, place)
+    if bodies := definition.bodies():
+        with Transaction(document, "bodies beside the net") as edit:
+            put_bodies(edit, bodies)
     return state, report

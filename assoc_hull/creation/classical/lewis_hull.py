@@ -27,6 +27,7 @@ from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checked_input import digits, numbers
 from assoc_hull.geometry.classical.conformal_sections import ConformalSections, lewis_sections
 from assoc_hull.geometry.curves import EndKind, FloatArray, PointKind, freeze
+from assoc_hull.model.attached_body import AttachedBody
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import Ends, HullState, Particulars
@@ -209,6 +210,10 @@ class LewisHull:
             "sections", f"ST {x:g}", np.column_stack([np.full(len(points), x), points]),
             kind=kind.tolist(), direction=upward, ends=Ends((int(EndKind.TANGENT), 0), _LEVEL),
         )  # fmt: skip
+
+    def bodies(self) -> tuple[AttachedBody, ...]:
+        """Give what stands beside the net: nothing."""
+        return ()
 
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give volume, its centre and the waterplane, beside those of a net if one is given.

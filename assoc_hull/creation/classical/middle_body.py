@@ -22,6 +22,7 @@ from assoc_hull.errors import BadInputError, GeometryError
 from assoc_hull.geometry.classical.checked_input import digits, finite_array, within_range
 from assoc_hull.geometry.classical.circular_arcs import PlaneArcs, arc_area, arc_moment
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.model.attached_body import AttachedBody
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import HullState, Particulars
@@ -327,6 +328,10 @@ class MiddleBody:
         points = [[0.0, *yz], [self.length, *yz]]
         plane = None if axis is None else (np.eye(3)[axis], points[0][axis])
         return LineSource.make("boundary", name, points, plane=plane, boundary=kind)
+
+    def bodies(self) -> tuple[AttachedBody, ...]:
+        """Give what stands beside the net: nothing."""
+        return ()
 
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give volume and its centre below the draught, beside those of a net if one is given."""

@@ -21,6 +21,7 @@ from scipy.interpolate import PchipInterpolator
 
 from assoc_hull.analysis.hydrostatics.floating_body import Appendage
 from assoc_hull.arguments import all_of, instance, shown
+from assoc_hull.creation.classical.bodies_beside import box_body, house_body
 from assoc_hull.creation.classical.prelikon_lines import (
     ENDS,
     SAME_PLACE,
@@ -51,6 +52,7 @@ from assoc_hull.geometry.classical.boundary_lines import SpaceCurve
 from assoc_hull.geometry.classical.checked_input import digits, finite_array
 from assoc_hull.geometry.classical.deck import Deck, DeckHouse, require_decks_apart
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.model.attached_body import AttachedBody
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import HullState, Particulars
 
@@ -293,6 +295,8 @@ class Prelikon:
         Appendages (7).
     houses : tuple of DeckHouse
         Deck houses (8).
+    hatches : tuple of DeckHouse
+        Hatches (8); blocks on a deck as deck houses are.
     curves : tuple of SpaceCurve
         Space curves (9).
     profile : CentrelineProfile
@@ -309,6 +313,7 @@ class Prelikon:
     boundaries: tuple[ArcBoundary, ...]
     boxes: tuple[AppendageBox, ...]
     houses: tuple[DeckHouse, ...]
+    hatches: tuple[DeckHouse, ...]
     curves: tuple[SpaceCurve, ...]
     profile: CentrelineProfile
     cuts: Mapping[str, tuple[float, ...]]
@@ -324,6 +329,7 @@ class Prelikon:
         boundaries: Sequence[ArcBoundary] = (),
         boxes: Sequence[AppendageBox] = (),
         houses: Sequence[DeckHouse] = (),
+        hatches: Sequence[DeckHouse] = (),
         curves: Sequence[SpaceCurve] = (),
         cuts: Mapping[str, Sequence[float]] | None = None,
         notes: Sequence[str] = (),
@@ -349,8 +355,10 @@ class Prelikon:
         bounds = tuple(all_of(boundaries, ArcBoundary, "boundaries", _WHERE))
         given_boxes = tuple(all_of(boxes, AppendageBox, "boxes", _WHERE))
         given_houses = tuple(all_of(houses, DeckHouse, "houses", _WHERE))
+        given_hatches = tuple(all_of(hatches, DeckHouse, "hatches", _WHERE))
+        blocks = (*given_houses, *given_hatches)
         given_curves = tuple(all_of(curves, SpaceCurve, "curves", _WHERE))
-        types = {1, *([5] if given else []), *([8] if given_houses else [])}
+        types = {1, *([5] if given else []), *([8] if blocks else [])}
         require_types(types | ({2, 3, 4} if given_decks else set()))
         if len(given) < 2:
             what = f"transverse sections: {len(given)} of them"
@@ -358,16 +366,18 @@ class Prelikon:
         deck = upper_deck(given_decks)
         cut = tuple(trim_station(each, deck) for each in given)
         profile = make_profile(cut, bounds, deck)
-        _require_decks(given, given_decks, given_houses)
+        _require_decks(given, given_decks, blocks)
         chosen = prelikon_cuts(cut, particulars.draught) | checked_cuts(cuts)
         before = all_of(notes, str, "notes", _WHERE)
         told = (
             *before,
-            *prelikon_notes(cut, profile, bounds, given_curves, given_boxes, given_houses),
+            *prelikon_notes(
+                cut, profile, bounds, given_curves, given_boxes, given_houses, given_hatches
+            ),
         )
         return cls(
-            particulars, cut, given_decks, bounds, given_boxes, given_houses, given_curves, profile,
-            chosen, told,
+            particulars, cut, given_decks, bounds, given_boxes, given_houses, given_hatches,
+            given_curves, profile, chosen, told,
         )  # fmt: skip
 
     @property
@@ -417,6 +427,12 @@ class Prelikon:
             A deck whose sheer or camber does not reach as far as the hull.
         """
         return prelikon_lines(self.stations, self.profile, self.deck, self.knuckles)
+
+    def bodies(self) -> tuple[AttachedBody, ...]:
+        """Give boxes, deck houses and hatches, as they stand beside a net."""
+        boxes = [box_body(each, "boxes") for each in self.boxes]
+        houses = [house_body(each, "deck houses") for each in self.houses]
+        return (*boxes, *houses, *(house_body(each, "hatches") for each in self.hatches))
 
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give volumes and centres of hull, boxes and houses, beside those of a net of it."""
@@ -492,16 +508,18 @@ def prelikon_notes(
     curves: Sequence[SpaceCurve],
     boxes: Sequence[AppendageBox],
     houses: Sequence[DeckHouse],
+    hatches: Sequence[DeckHouse] = (),
 ) -> tuple[str, ...]:
     """Report what the net leaves out, and how far that lies off the sections."""
     found = _joint_notes(stations)
     found += [note for each in curves if (note := _curve_notes(each, stations))]
     found += [_boundary_notes(each, stations) for each in boundaries if each.name not in ENDS]
-    for name, count in (("appendage box", len(boxes)), ("deck house", len(houses))):
+    counts = {"appendage box": len(boxes), "deck house": len(houses), "hatch": len(hatches)}
+    for name, count in counts.items():
         if count:
-            plural = {"appendage box": "appendage boxes"}.get(name, f"{name}s")
+            plural = {"appendage box": "appendage boxes", "hatch": "hatches"}.get(name, f"{name}s")
             title = f"1 {name} is" if count == 1 else f"{count} {plural} are"
-            found.append(f"{title} told here and not in the net")
+            found.append(f"{title} outlined beside the net")
     return tuple(found)
 
 
@@ -606,7 +624,7 @@ def _box_figures(ship: Prelikon) -> list[ReportFigure]:
 
 def _house_figures(ship: Prelikon) -> list[ReportFigure]:
     found = []
-    for each in ship.houses:
+    for each in (*ship.houses, *ship.hatches):
         found.append(ReportFigure(f"{each.name}: volume", each.volume, "m3"))
         found.append(ReportFigure(f"{each.name}: profile area", each.profile_area, "m2"))
         found.append(ReportFigure(f"{each.name}: centre x", each.centroid[0], "m"))

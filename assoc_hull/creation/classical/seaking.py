@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import all_of
+from assoc_hull.creation.classical.bodies_beside import lofted_body
 from assoc_hull.creation.classical.line_outline import (
     CLOSE,
     OutlinePiece,
@@ -33,6 +34,7 @@ from assoc_hull.creation.classical.report import (
 from assoc_hull.creation.classical.seaking_parts import (
     WHERE,
     AttachedAppendage,
+    DeckBlock,
     DeckCamber,
     Knuckle,
     MidshipSection,
@@ -58,6 +60,7 @@ from assoc_hull.geometry.classical.circular_arcs import arc_area, arc_moment
 from assoc_hull.geometry.classical.frame_section import FrameSection, Quadratics
 from assoc_hull.geometry.classical.parallel_waterline import LevelPiece, ParallelWaterline
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
+from assoc_hull.model.attached_body import AttachedBody
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import HullState, Particulars
@@ -97,6 +100,10 @@ def _appendages(given: object) -> tuple[AttachedAppendage, ...]:
     return tuple(all_of(given, AttachedAppendage, "appendages", WHERE))
 
 
+def _blocks(given: object) -> tuple[DeckBlock, ...]:
+    return tuple(all_of(given, DeckBlock, "blocks", WHERE))
+
+
 def _told(given: object) -> tuple[str, ...]:
     return tuple(all_of(given, str, "told", WHERE))
 
@@ -125,6 +132,8 @@ class Seaking:
         Of the deck.
     appendages : tuple of AttachedAppendage
         What is added to or taken from the hull.
+    blocks : tuple of DeckBlock
+        Hatches and deck houses.
     buttocks : tuple of float, m
         Where the net is cut.
     told : tuple of str
@@ -142,6 +151,7 @@ class Seaking:
     knuckles: tuple[Knuckle, ...] = attrs.field(default=(), converter=_knuckles)
     camber: DeckCamber = attrs.field(factory=DeckCamber, validator=instance_validator(DeckCamber))
     appendages: tuple[AttachedAppendage, ...] = attrs.field(default=(), converter=_appendages)
+    blocks: tuple[DeckBlock, ...] = attrs.field(default=(), converter=_blocks)
     buttocks: tuple[float, ...] = attrs.field(default=(), converter=_numbers)
     told: tuple[str, ...] = attrs.field(default=(), converter=_told)
 
@@ -149,6 +159,8 @@ class Seaking:
         freeze(self.frames)
         check_heights(self.waterlines)
         check_deck(self.deck, self.keel)
+        for each in self.blocks:
+            each.require_deck(self.deck)
         check_frames(self.frames, self.keel.ends)
         if self.parallel is not None:
             check_parallel(self.parallel, self.deck, self.keel)
@@ -228,6 +240,13 @@ class Seaking:
     def lines(self) -> tuple[LineSource, ...]:
         """Give frames, waterlines, profile, deck edge, knuckle lines, flat of bottom, transoms."""
         return seaking_lines(self)
+
+    def bodies(self) -> tuple[AttachedBody, ...]:
+        """Give appendages, deck houses and hatches, as they stand beside a net."""
+        hung = [
+            lofted_body(each.name, each.body, each.both, "appendages") for each in self.appendages
+        ]
+        return (*hung, *(each.body(self.deck, self.camber) for each in self.blocks))
 
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give its own numbers, beside those of a net of it if one is handed in."""
@@ -638,7 +657,10 @@ def _omission_notes(ship: Seaking) -> list[str]:
         )
     if ship.appendages:
         names = ", ".join(each.name for each in ship.appendages)
-        found.append(f"appendages are not in the net: {names}")
+        found.append(f"appendages are outlined beside the net: {names}")
+    if ship.blocks:
+        names = ", ".join(each.name for each in ship.blocks)
+        found.append(f"hatches and deck houses are outlined beside the net: {names}")
     return found
 
 
@@ -680,6 +702,8 @@ def seaking_report(ship: Seaking, state: HullState | None) -> ClassicalReport:
                 ReportFigure(f"centre of {each.name}, x", x, "m"),
                 ReportFigure(f"centre of {each.name}, z", z, "m"),
             ]
+    for body in (each.body(ship.deck, ship.camber) for each in ship.blocks):
+        figures.append(ReportFigure(f"volume of {body.name}", body.volume, "m3"))
     away = () if state is None else departures(state, _defined_sections(ship))
     return ClassicalReport(
         ship.kind, ship.particulars.name, tuple(figures), ship.notes, away

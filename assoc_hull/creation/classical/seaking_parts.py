@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import instance
+from assoc_hull.creation.classical.bodies_beside import ACROSS, block_body
 from assoc_hull.creation.classical.line_outline import PlaneOutline, smooth_piece, straight_piece
 from assoc_hull.creation.classical.middle_body import Midship, midship_outline
 from assoc_hull.errors import GeometryError
@@ -40,10 +41,12 @@ from assoc_hull.geometry.classical.frame_section import (
 )
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.model.attached_body import AttachedBody
 
 __all__ = [
     "WHERE",
     "AttachedAppendage",
+    "DeckBlock",
     "DeckCamber",
     "Knuckle",
     "MidshipSection",
@@ -106,6 +109,80 @@ class AttachedAppendage:
     def volume(self) -> float:
         """With its sign, of both sides, m3."""
         return (2.0 if self.both else 1.0) * self.body.volume
+
+
+_LOOKED = 33
+"""Places along a block, ends among them, at which it must not be broader than its deck."""
+
+
+@attrs.frozen
+class DeckBlock:
+    """A hatch or a deck house: its foot follows the deck, its sides are upright.
+
+    Attributes
+    ----------
+    name, group : str
+        What it is called; ``"hatches"`` or ``"deck houses"``.
+    first, last : float, m
+        From where to where it stands.
+    breadth, height : float, m
+        Over both sides; of its sides, above the deck.
+    rise : float, m
+        Camber of its top, from its sides up to the centre line, of the kind of the deck's.
+    """
+
+    name: str
+    group: str
+    first: float
+    last: float
+    breadth: float
+    height: float
+    rise: float = 0.0
+
+    def __attrs_post_init__(self) -> None:
+        sizes = (
+            ("length", self.last - self.first),
+            ("breadth", self.breadth),
+            ("height", self.height),
+        )
+        for word, value in sizes:
+            if not value > 0.0:
+                what = f"{self.name}: {word} {digits(value)}"
+                raise GeometryError(what, "give one above 0", {word: value})
+
+    def require_deck(self, deck: CodedKnuckleLine) -> None:
+        """Check that it stands on the deck; raises GeometryError with what is there."""
+        low, high = deck.ends
+        for word, x in (("from", self.first), ("to", self.last)):
+            if not low <= x <= high:
+                what = f"{self.name}: {word} is x={digits(x)}, where no deck is"
+                raise GeometryError(what, f"give {digits(low)} to {digits(high)}", {"x": x})
+        places = np.linspace(self.first, self.last, _LOOKED)
+        wide = 2.0 * deck.at(places)[:, 0]
+        k = int(wide.argmin())
+        if wide[k] < self.breadth * (1.0 - 1e-12):
+            at, most = float(places[k]), float(wide[k])
+            told = {"breadth": self.breadth, "x": at, "deck_breadth": most}
+            broad = f"{self.name}: breadth {digits(self.breadth)}"
+            what = f"{broad} exceeds the deck breadth at x={digits(at)}"
+            raise GeometryError(what, f"give at most {digits(most)}", told)
+
+    def body(self, deck: CodedKnuckleLine, camber: DeckCamber) -> AttachedBody:
+        """Make its outlines on a deck."""
+        inner = deck.x[(deck.x > self.first) & (deck.x < self.last)]
+        x = np.union1d(np.linspace(self.first, self.last, _LOOKED), inner)
+        y = np.linspace(-0.5 * self.breadth, 0.5 * self.breadth, ACROSS)
+        side = deck.at(x)
+        rise = np.array([camber.at(each)[0] or 0.0 for each in x.tolist()])
+        half = np.maximum(side[:, 0], 0.5 * self.breadth)
+        foot = side[:, 1:] + rise[:, None] * _crown(y / half[:, None], camber.kind)
+        top = foot[:, :1] + self.height + self.rise * _crown(y / (0.5 * self.breadth), camber.kind)
+        return block_body(self.name, self.group, x, foot, np.broadcast_to(top, foot.shape), y)
+
+
+def _crown(part: FloatArray, kind: str) -> FloatArray:
+    """Give camber at parts of the half-breadth, as a part of its rise."""
+    return np.asarray(1.0 - (part * part if kind == "parabola" else np.abs(part)))
 
 
 def _rows(given: ArrayLike) -> FloatArray:

@@ -16,6 +16,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import all_of, instance, not_negative, shown
+from assoc_hull.creation.classical.bodies_beside import sections_body
 from assoc_hull.creation.classical.line_outline import point_kinds_along
 from assoc_hull.creation.classical.report import (
     ClassicalReport,
@@ -30,6 +31,7 @@ from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checked_input import digits, finite_array
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
+from assoc_hull.model.attached_body import AttachedBody
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import HullState, Particulars
@@ -155,6 +157,12 @@ class Sfolds:
             Portions of which no net can be made.
         """
         return sfolds_lines(self.portions, self.corner)
+
+    def bodies(self) -> tuple[AttachedBody, ...]:
+        """Give the portions that are bodies of their own and have sections."""
+        return tuple(
+            portion_body(each) for each in self.portions if not each.is_main and each.sections
+        )
 
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give volumes and centres of portions and of the whole, beside those of a net of it."""
@@ -390,7 +398,38 @@ def _thinned_places(places: Sequence[float]) -> tuple[float, ...]:
 
 
 # --------------------------------------------------------------------------------------
-# Notes and report.
+# Bodies of their own, notes and report.
+
+_AROUND = 48
+"""Parts of the half outline of a section of a body of its own, up to the deck side."""
+
+_TOP = 8
+"""Parts of its half breadth at the top."""
+
+
+def portion_body(portion: Portion) -> AttachedBody:
+    """Give a portion that is a body of its own, as it stands beside a net."""
+    rings = np.stack([_ring(each) for each in portion.sections])
+    group = f"{portion.kind}s"
+    return sections_body(portion.kind, group, portion.stations, rings, _ring_corners())
+
+
+def _ring(section: OrdinateSection) -> FloatArray:
+    """Give a closed section, (m, 2), m: up to port, over the top, down to starboard."""
+    c0, c1, c2 = section.steps().transpose(1, 0, 2)
+    u = (np.arange(_SAMPLES + 1) / _SAMPLES)[:, None, None]
+    drawn = (c0 + u * (c1 + u * c2)).transpose(1, 0, 2).reshape(-1, 2)
+    along = np.concatenate([[0.0], np.hypot(*np.diff(drawn, axis=0).T).cumsum()])
+    at = np.linspace(0.0, along[-1], _AROUND + 1)
+    side = np.column_stack([np.interp(at, along, drawn[:, axis]) for axis in range(2)])
+    y = section.bd * (1.0 - np.arange(1, _TOP + 1) / _TOP)
+    port = np.concatenate([side, np.column_stack([y, section.camber(y)])])
+    return np.concatenate([port, port[-2:0:-1] * [-1.0, 1.0]])
+
+
+def _ring_corners() -> tuple[int, ...]:
+    """Where edges run along: the keel, the sides of the top."""
+    return 0, _AROUND, _AROUND + 2 * _TOP
 
 
 def sfolds_notes(portions: Sequence[Portion]) -> tuple[str, ...]:
@@ -405,9 +444,10 @@ def sfolds_notes(portions: Sequence[Portion]) -> tuple[str, ...]:
                 ]
     for portion in portions:
         if not portion.is_main:
+            where = "is outlined beside the net" if portion.sections else "has no outline"
             found.append(
                 f"portion {portion.number} ({portion.kind}) is a body of its own: its volume is "
-                "told here, it is not in a net"
+                f"told here, and it {where}"
             )
     return tuple(found)
 

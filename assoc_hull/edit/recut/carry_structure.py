@@ -13,6 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.carried_net import CarriedNet
+from assoc_hull.edit.mapped_bodies import carry_bodies
 from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.mapped_planes import TransformedPlanes
 from assoc_hull.edit.mapped_tunnels import carry_tunnels
@@ -99,6 +100,7 @@ def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
     if by.particulars != state.particulars:
         edit.journal.set(state.settings.particulars, [0], [by.particulars])
     pending.notes += carry_tunnels(state, edit.journal, by.space)
+    pending.notes += carry_bodies(state, edit.journal, by.space)
     rows = given_points(state)
     edit.write(rows, work.value[rows], "carrying a net")
     pending.features = _features(work, by)

@@ -287,7 +287,7 @@ def read_box(card: Card, units: PrelikonUnits) -> AppendageBox:
 
 
 def read_house(card: Card, decks: Sequence[Deck], units: PrelikonUnits) -> DeckHouse:
-    """Read a deck house: its name, deck, breadth and height, and where it begins and ends.
+    """Read a deck house or a hatch: its name, deck, sizes, and from where to where.
 
     Raises
     ------
@@ -411,6 +411,7 @@ TYPES: Mapping[str, int] = {
     "boundary": 6,
     "box": 7,
     "house": 8,
+    "hatch": 8,
     "curve": 9,
 }
 """The cards of main types, and the type of each."""
@@ -450,12 +451,14 @@ def read_prelikon(cards: Cards) -> Prelikon:
     boundaries = [read_boundary(card, units) for card in cards.every("boundary")]
     boxes = [read_box(card, units) for card in cards.every("box")]
     houses = [read_house(card, decks, units) for card in cards.every("house")]
+    hatches = [read_house(card, decks, units) for card in cards.every("hatch")]
     curves = [read_curve(card, units) for card in cards.every("curve")]
     _require_one_each(cards, "boundary")
     try:
         return Prelikon.make(
             scaled, stations, decks=decks, boundaries=boundaries, boxes=boxes, houses=houses,
-            curves=curves, cuts=_cuts(cards, units), notes=(*origin.notes, *units.notes),
+            hatches=hatches, curves=curves, cuts=_cuts(cards, units),
+            notes=(*origin.notes, *units.notes),
         )  # fmt: skip
     except GeometryError as error:
         raise error.at(f"in {cards.source}") from None

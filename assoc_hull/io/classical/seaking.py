@@ -44,6 +44,7 @@ from assoc_hull.creation.classical.middle_body import Midship
 from assoc_hull.creation.classical.seaking import Seaking
 from assoc_hull.creation.classical.seaking_parts import (
     AttachedAppendage,
+    DeckBlock,
     DeckCamber,
     Knuckle,
     ParallelPart,
@@ -67,7 +68,8 @@ __all__ = ["WORDS", "read_seaking"]
 
 WORDS = (
     *DIMENSIONS, "deck", "deckside", "origin", "keel", "contour", "tangent", "midship",
-    "waterline", "knuckle", "camber", "corner", "appendage", "frames", "buttocks",
+    "waterline", "knuckle", "camber", "corner", "appendage", "hatch", "house", "frames",
+    "buttocks",
 )  # fmt: skip
 """The cards there are."""
 
@@ -112,7 +114,7 @@ def read_seaking(cards: Cards) -> Seaking:
             camber=_camber(cards, origin),
             appendages=tuple(_appendage(card, origin) for card in cards.every("appendage")),
             buttocks=() if buttocks is None else tuple(_places(buttocks).tolist()),
-            told=origin.notes,
+            blocks=_blocks(cards, origin), told=origin.notes,
         )  # fmt: skip
     except GeometryError as error:
         raise error.at(f"in {cards.source}") from None
@@ -262,6 +264,38 @@ def _appendage(card: Card, origin: Origin) -> AttachedAppendage:
     except GeometryError as error:
         raise error.at(card.where) from None
     return AttachedAppendage(card.cells[0], made, sides == 2.0)
+
+
+def _blocks(cards: Cards, origin: Origin) -> list[DeckBlock]:
+    """Read hatches and deck houses; where the deck does not carry one, its line is named."""
+    deck = _line(cards.one("deckside"), origin)
+    words = ("from", "to", "breadth", "height")
+    found = []
+    for group, kind in (("hatches", "hatch"), ("deck houses", "house")):
+        for card in cards.every(kind):
+            if not card.cells or "=" in card.cells[0]:
+                raise BadInputError(f"a {kind} has no name", card.where, "give it after the word")
+            cells = card.options((*words, "camber"), first=1)
+            missing = [word for word in words if word not in cells]
+            if missing or card.rows:
+                what = f"{kind} lacks {', '.join(missing)}" if missing else f"{kind} has rows"
+                remedy = "add it as name=value" if missing else "leave them out"
+                raise BadInputError(what, card.where, remedy)
+            low, high, breadth, height = (_field(cells, word, card) for word in words)
+            rise = _field(cells, "camber", card) if "camber" in cells else 0.0
+            first, last = origin.moved([low, high]).tolist()
+            try:
+                made = DeckBlock(card.cells[0], group, first, last, breadth, height, rise)
+                made.require_deck(deck)
+            except GeometryError as error:
+                raise error.at(card.where) from None
+            found.append(made)
+    return found
+
+
+def _field(cells: Mapping[str, str], word: str, card: Card) -> float:
+    """Read the number of a cell; where it is none, the error names the cell too."""
+    return read_number(cells[word], f"in {word}, {card.where}")
 
 
 def _places(card: Card) -> FloatArray:

@@ -251,6 +251,9 @@ def export_hull(
         names = ", ".join(each.name for each in state.tunnels)
         book.leave_out("tunnels", "the hull", f"its tunnels ({names})", len(state.tunnels))
     write_whole(path, written)
+    if state.bodies and name != "hull":
+        names = ", ".join(each.name for each in state.bodies)
+        book.leave_out("bodies", "the hull", f"bodies beside its net ({names})", len(state.bodies))
     report = book.report(os.fspath(path), name)
     return attrs.evolve(report, rounding=0.0) if chosen.decimals == _EXACT else report
 

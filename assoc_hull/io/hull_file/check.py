@@ -175,6 +175,9 @@ def _settings(state: HullState) -> Iterator[str]:
     names = [each.name for each in state.tunnels]
     if not all(names) or len({*names, *groups}) < len(names) + len(groups):
         yield "a tunnel has no name, or one that something else has"
+    called = [each.name for each in state.bodies]
+    if not all(called) or len(set(called)) < len(called):
+        yield "a body beside the net has no name, or one that another has"
     if not all(count > 0 for count in state.births.values()):
         yield "a pair of lines bore no crossing"
     if not set(state.failed) <= set(state.live("curves").tolist()):

@@ -61,7 +61,7 @@ AGAIN = (
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
 
-SCHEMA = 10
+SCHEMA = 11
 
 TABLES = """
 CREATE TABLE hull (
@@ -131,6 +131,10 @@ CREATE TABLE rulings (
 CREATE TABLE tunnels (
     place INTEGER PRIMARY KEY, name TEXT NOT NULL, x BLOB NOT NULL, z BLOB NOT NULL,
     radius BLOB NOT NULL
+);
+CREATE TABLE bodies (
+    place INTEGER PRIMARY KEY, name TEXT NOT NULL, kind TEXT NOT NULL, sections TEXT NOT NULL,
+    corners TEXT NOT NULL, both INTEGER NOT NULL, sign INTEGER NOT NULL
 );
 CREATE TABLE births (
     a TEXT NOT NULL, b TEXT NOT NULL, count INTEGER NOT NULL, PRIMARY KEY (a, b)
@@ -227,15 +231,27 @@ def _add_tunnels(database: sqlite3.Connection) -> None:
     )
 
 
+def _add_bodies(database: sqlite3.Connection) -> None:
+    """From 10 to 11: bodies beside the net; older ones have none."""
+    database.execute(
+        "CREATE TABLE bodies (place INTEGER PRIMARY KEY, name TEXT NOT NULL, kind TEXT NOT NULL, "
+        "sections TEXT NOT NULL, corners TEXT NOT NULL, both INTEGER NOT NULL, "
+        "sign INTEGER NOT NULL)"
+    )
+
+
 MIGRATIONS: Mapping[int, Migration] = {
     1: _add_label_authors, 2: _add_gone, 3: _add_deck, 4: _add_features,
     5: _add_definitions, 6: _add_base, 7: _add_faired,
-    8: _add_switches, 9: _add_tunnels,
+    8: _add_switches, 9: _add_tunnels, 10: _add_bodies,
 }  # fmt: skip
 """By version: what brings a file of it to the next one."""
 
 
-_CAME = {"gone": 3, "features": 5, "definitions": 6, "generated": 6, "rulings": 9, "tunnels": 10}
+_CAME = {
+    "gone": 3, "features": 5, "definitions": 6, "generated": 6, "rulings": 9, "tunnels": 10,
+    "bodies": 11,
+}  # fmt: skip
 _GREW = (
     ("labels", 2, ",author TEXT NOT NULL DEFAULT '',time TEXT NOT NULL DEFAULT ''"),
     ("hull", 4, ",deck TEXT NOT NULL DEFAULT 'open'"),

@@ -27,6 +27,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.network import Readers
 from assoc_hull.io.hull_file.guard import MOST_BYTES, MOST_TEXT, parse_json, read_rows
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
+from assoc_hull.model.attached_body import AttachedBody
 from assoc_hull.model.change import CrossingPositions, TableChange, positions_against
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
@@ -349,6 +350,10 @@ _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
     "settings.tunnels": (
         lambda tunnels: [list(attrs.astuple(each)) for each in tunnels],
         lambda said: tuple(TunnelDefinition(*each) for each in said),
+    ),
+    "settings.bodies": (
+        lambda bodies: [list(attrs.astuple(each, recurse=False)) for each in bodies],
+        lambda said: tuple(AttachedBody(*each) for each in said),
     ),
 }
 """By column: to what JSON can say, and back. All other columns of objects hold texts."""

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.io.hull_file.guard import parse_json, read_numbered, read_rows
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
+from assoc_hull.model.attached_body import AttachedBody, bodies_in_order
 from assoc_hull.model.births import Births, Pair
 from assoc_hull.model.change import (
     CrossingPositions,
@@ -269,7 +270,7 @@ def write_state(
 
 
 def write_settings(database: sqlite3.Connection, state: HullState) -> None:
-    """Write particulars, failures, associations, rulings and tunnels."""
+    """Write particulars, failures, associations, rulings, tunnels and bodies."""
     ship = state.particulars
     database.execute(
         "UPDATE hull SET name = ?, length = ?, breadth = ?, depth = ?, draught = ?, deck = ?, "
@@ -292,6 +293,13 @@ def write_settings(database: sqlite3.Connection, state: HullState) -> None:
         for place, each in enumerate(state.tunnels)
     ]
     database.executemany("INSERT INTO tunnels VALUES (?, ?, ?, ?, ?)", cylinders)
+    database.execute("DELETE FROM bodies")
+    outlined = [
+        (place, each.name, each.group, json.dumps(each.sections), json.dumps(each.corners),
+         int(each.both), each.sign)
+        for place, each in enumerate(state.bodies)
+    ]  # fmt: skip
+    database.executemany("INSERT INTO bodies VALUES (?, ?, ?, ?, ?, ?, ?)", outlined)
 
 
 def write_births(database: sqlite3.Connection, counts: Mapping[Pair, int]) -> None:
@@ -428,6 +436,13 @@ def read_state(database: sqlite3.Connection) -> HullState:
     state.settings.tunnels.data[0] = tunnels_in_order(
         TunnelDefinition(name, *(float(np.frombuffer(each, "<f8")[0]) for each in numbers))
         for name, *numbers in cylinders
+    )
+    outlined = read_rows(
+        database, "SELECT name, kind, sections, corners, both, sign FROM bodies ORDER BY place"
+    )
+    state.settings.bodies.data[0] = bodies_in_order(
+        AttachedBody(name, kind, parse_json(rings), parse_json(corners), bool(both), sign)
+        for name, kind, rings, corners, both, sign in outlined
     )
     births = read_rows(database, "SELECT a, b, count FROM births ORDER BY a, b")
     state.settings.births.data[0] = Births.of({(a, b): int(count) for a, b, count in births})

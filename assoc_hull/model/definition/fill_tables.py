@@ -21,6 +21,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, IntArray, PointKind
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import ValueColumn
+from assoc_hull.model.attached_body import AttachedBody, bodies_in_order
 from assoc_hull.model.births import Births
 from assoc_hull.model.definition.records import code_words
 from assoc_hull.model.features import Feature
@@ -593,6 +594,7 @@ def make_tables(definition: Record) -> HullState:
     put_meetings(state, journal, parts[1], keys.find)
     _put_rulings(state, journal, definition.get("rulings", ()), keys)
     _put_tunnels(state, journal, definition.get("tunnels", ()))
+    _put_bodies(state, journal, definition.get("bodies", ()))
     put_features(state, journal, definition.get("features", ()), keys)
     put_forms(state, journal, definition, keys)
     _retire(state, journal, gone)
@@ -666,6 +668,15 @@ def _put_tunnels(state: HullState, journal: Journal, tunnels: Sequence[Record]) 
             raise contradiction(f"the tunnel {one.name!r} stands there twice", "in the tunnels")
     if found:
         journal.set(state.settings.tunnels, [0], [found])
+
+
+def _put_bodies(state: HullState, journal: Journal, bodies: Sequence[Record]) -> None:
+    found = bodies_in_order(AttachedBody(**each) for each in bodies)
+    for one, next_ in pairwise(found):
+        if one.name == next_.name:
+            raise contradiction(f"the body {one.name!r} stands there twice", "in the bodies")
+    if found:
+        journal.set(state.settings.bodies, [0], [found])
 
 
 def _put_lines(

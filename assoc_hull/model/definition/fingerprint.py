@@ -36,6 +36,7 @@ from assoc_hull.model.definition.canonical_columns import (
 from assoc_hull.model.definition.records import (
     association_records,
     birth_records,
+    body_records,
     definition_columns,
     generated_columns,
     plain_fields,
@@ -101,6 +102,7 @@ def _settings(state: HullState, order: CanonicalOrder) -> list[object]:
     found = [names, association_records(state), birth_records(state), retired_keys(state)]
     found += [ruling_records(state)] if state.rulings else []
     found += [{"tunnels": tunnel_records(state)}] if state.tunnels else []
+    found += [{"bodies": body_records(state)}] if state.bodies else []
     return [*found, *([{"members": members}] if any(members) else ())]
 
 

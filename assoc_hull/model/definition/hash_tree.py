@@ -33,6 +33,7 @@ from assoc_hull.model.definition.canonical_columns import retired_keys
 from assoc_hull.model.definition.records import (
     association_records,
     birth_records,
+    body_records,
     definition_records,
     generated_records,
     plain_fields,
@@ -328,6 +329,7 @@ class HashTree:
             [_named(self.state.groups.name.data, group) for group in self._groups],
             *([ruling_records(state)] if state.rulings else ()),
             *([{"tunnels": tunnel_records(state)}] if state.tunnels else ()),
+            *([{"bodies": body_records(state)}] if state.bodies else ()),
         ]  # fmt: skip
         return _hash(told, np.array(reals, np.float64))
 

@@ -37,6 +37,7 @@ from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
 from assoc_hull.model.tables import HullState
 
 __all__ = [
+    "body_records",
     "code_words",
     "definition",
     "definition_columns",
@@ -128,9 +129,10 @@ def definition(state: HullState) -> dict[str, object]:
         ``groups``, ``associations``, ``lines``, ``curves``, ``points``, ``births`` (line,
         line, how many crossings the pair ever had), ``retired`` (keys that must not come
         back) and, of a hull that has any, ``features``, ``rulings`` (which lines rule where),
-        ``tunnels`` (athwartships), ``definitions`` (by form parameters) and ``generated``
-        (curves that come from these). What has its default is left out: an open deck, notes,
-        labels, free ends, zero directions, smooth passage, overrides, zero signs.
+        ``tunnels`` (athwartships), ``bodies`` (beside the net), ``definitions`` (by form
+        parameters) and ``generated`` (curves that come from these). What has its default is left
+        out: an open deck, notes, labels, free ends, zero directions, smooth passage,
+        overrides, zero signs.
         ``meets`` of a curve lists, per associated line and along the curve, the sign of
         each intersection and the crossing it is, or None. ``value`` of a point (x, y, z; m)
         stands only where nothing else gives it; a ``riding`` point has ``anchors``,
@@ -142,6 +144,7 @@ def definition(state: HullState) -> dict[str, object]:
         "features": list(_feature_records(state)),
         "rulings": ruling_records(state),
         "tunnels": tunnel_records(state),
+        "bodies": body_records(state),
         "definitions": list(definition_records(state)),
         "generated": list(generated_records(state)),
     }
@@ -193,6 +196,21 @@ def ruling_records(state: HullState) -> list[Record]:
 def tunnel_records(state: HullState) -> list[Record]:
     """Give each tunnel as plain values, by name."""
     return [attrs.asdict(each) for each in state.tunnels]
+
+
+def body_records(state: HullState) -> list[Record]:
+    """Give each body beside the net as plain values, by name."""
+    return [
+        {
+            "name": each.name,
+            "group": each.group,
+            "sections": [[list(point) for point in ring] for ring in each.sections],
+            "corners": list(each.corners),
+            "both": each.both,
+            "sign": each.sign,
+        }
+        for each in state.bodies
+    ]
 
 
 def birth_records(state: HullState) -> list[list[object]]:

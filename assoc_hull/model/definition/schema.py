@@ -27,6 +27,7 @@ from assoc_hull.model.kinds import FAMILIES, OWN, BoundaryKind, Role, Sort, Stat
 from assoc_hull.model.tables import DECKS, Particulars
 from assoc_hull.model.value_schema import (
     COUNT,
+    INDEX,
     NAME,
     NOT_NEGATIVE,
     POSITIVE,
@@ -163,6 +164,20 @@ _TUNNEL = record(
 )
 
 
+_BODY = record(
+    {
+        "name": NAME,
+        "group": described(NAME, "hatches, deck houses, boxes, bossings and so on"),
+        "sections": described(
+            list_of(list_of(_VECTOR, 3), 2), "closed, from aft forward, of as many points each, m"
+        ),
+        "corners": described(list_of(INDEX), "points at which edges run along"),
+        "both": described(TRUTH, "its mirror image stands on the other side"),
+        "sign": described(one_of((1, -1)), "1: stands on the hull, -1: is taken from it"),
+    }
+)
+
+
 _FORM = record(
     {
         "use": described(NAME, "what is taken from it; each use stands once"),
@@ -235,6 +250,7 @@ DEFINITION = record(
         ),
         "rulings": described(list_of(_RULING), "which lines rule where; none if not told"),
         "tunnels": described(list_of(_TUNNEL), "through the hull athwartships; none if not told"),
+        "bodies": described(list_of(_BODY), "beside the net; none if not told"),
         "definitions": described(list_of(_FORM), "curves of form parameters; none if not told"),
         "generated": described(list_of(_MADE), "curves that come from these; none if not told"),
     },

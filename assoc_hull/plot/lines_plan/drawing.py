@@ -17,11 +17,13 @@ from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.address import AddressBook
+from assoc_hull.model.attached_body import AttachedBody
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind
 from assoc_hull.model.line_source import LineSource, line_curve_data
 from assoc_hull.model.named_mapping import NamedMapping
 from assoc_hull.model.tables import HasState, HullState, Particulars, state_of
+from assoc_hull.plot.lines_plan.body_outlines import drawn_outlines
 from assoc_hull.plot.lines_plan.tunnel_mouths import PlotMouth, mouths_of
 from assoc_hull.plot.sheet.paper import HEAVY, LINE, TINT, Pen
 
@@ -162,6 +164,8 @@ class Drawing:
         The x between which its lines are cut off; None where they are whole.
     mouths : tuple of PlotMouth
         Of its tunnels.
+    bodies : tuple of AttachedBody
+        Beside its net.
     """
 
     particulars: Particulars
@@ -169,6 +173,7 @@ class Drawing:
     crossings: PlotCrossings
     window: tuple[float, float] | None = None
     mouths: tuple[PlotMouth, ...] = ()
+    bodies: tuple[AttachedBody, ...] = ()
 
     def of(self, family: str) -> tuple[PlotLine, ...]:
         """Give the lines of a family."""
@@ -197,7 +202,10 @@ class Drawing:
     @property
     def bounds(self) -> FloatArray:
         """Least and greatest coordinates, (2, 3), m; in x those of its window."""
-        points = np.concatenate([line.points for line in self.lines])
+        points = np.concatenate(
+            [line.points for line in self.lines]
+            + [part for each in self.bodies for part in drawn_outlines(each)]
+        )
         found = np.stack([points.min(axis=0), points.max(axis=0)])
         if self.window is not None:
             found[:, 0] = self.window
@@ -231,7 +239,7 @@ def drawing(hull: Drawable) -> Drawing:
     lines = [_drawn(state, book, line) for line in state.live("lines").tolist()]
     lines.sort(key=lambda line: (FAMILIES[line.family].rank, line.offset, line.name))
     crossings, mouths = _crossings(state, book), mouths_of(state)
-    return Drawing(state.particulars, tuple(lines), crossings, mouths=mouths)
+    return Drawing(state.particulars, tuple(lines), crossings, mouths=mouths, bodies=state.bodies)
 
 
 def _crossings(state: HullState, book: AddressBook) -> PlotCrossings:

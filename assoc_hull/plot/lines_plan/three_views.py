@@ -14,6 +14,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.lines_plan.batten_heat import BattenHeat
+from assoc_hull.plot.lines_plan.body_outlines import drawn_outlines
 from assoc_hull.plot.lines_plan.drawing import Drawing, PlotLine, pen_of
 from assoc_hull.plot.lines_plan.tunnel_mouths import outside_mouths
 from assoc_hull.plot.lines_plan.zoom_window import clipped
@@ -364,6 +365,9 @@ _NEAR = 1e-6
 _MOUTH = Pen(0.22, over=2.6)
 """Of the mouth of a tunnel."""
 
+_BODY = Pen(0.18, over=2.5)
+"""Of the outlines of a body beside the net."""
+
 
 @attrs.frozen(eq=False)
 class _Top:
@@ -445,6 +449,25 @@ class Views:
                     name=f"label/profile/tunnels/{each.name}",
                 )  # fmt: skip
 
+    def bodies(self, view: View) -> None:
+        """Draw the outlines of bodies beside the net; in the profile they have their names."""
+        low, high = self.drawing.window or (-np.inf, np.inf)
+        for each in self.drawing.bodies:
+            middle = each.points.reshape(-1, 3).mean(axis=0)
+            name = f"{each.group}/{each.name}"
+            half = view
+            if view.name == "body" and middle[0] < self.middle:
+                half = view.mirrored()
+            for points in drawn_outlines(each):
+                for part, _ in clipped(points, low, high):
+                    self.sheet.line(half.on_paper(part), _BODY, f"{view.name}/{name}")
+            if view.name == "profile" and self.drawing.shows(middle[0]):
+                over = view.up(float(each.points[..., 2].max())) + 0.8 * self.sheet.paper.factor
+                self.sheet.text(
+                    (view.across(middle[0]), over), each.name, up="bottom", halo=True,
+                    name=f"label/profile/{name}",
+                )  # fmt: skip
+
     def profile(self, view: View) -> None:
         """Draw the sheer plan: buttocks and boundaries over stations and waterlines."""
         self.grid.stations(view, self.low[2], self.high[2])
@@ -469,6 +492,7 @@ class Views:
         )  # fmt: skip
         self.grid.levels(view, self.low[0], self.high[0])
         self.mouths(view)
+        self.bodies(view)
 
     def _cut_off(self, view: View, end: FloatArray) -> bool:
         """Whether the window of the drawing ends a line there, mm on paper."""
@@ -503,6 +527,7 @@ class Views:
         label_above(self.sheet, lettered, wanted, top, "label/half-breadth/above")
         self.grid.lanes(view, self.low[0], self.high[0])
         self.mouths(view)
+        self.bodies(view)
 
     def _along_grid(self, line: PlotLine) -> bool:
         """Whether a line is straight along the ship when seen from above."""
@@ -556,6 +581,7 @@ class Views:
         )  # fmt: skip
         self.grid.body(view)
         self.mouths(view)
+        self.bodies(view)
 
     def heat(self, layout: ViewLayout, colours: BattenHeat) -> None:
         """Colour the lines of all three views."""

@@ -132,8 +132,8 @@ def test_the_supply_ship_has_the_printed_numbers(supply: Prelikon) -> None:
     )
     assert supply.notes == (
         "x counted from midship was moved by +57 m: x is now from AP",
-        "1 appendage box is told here and not in the net",
-        "1 deck house is told here and not in the net",
+        "1 appendage box is outlined beside the net",
+        "1 deck house is outlined beside the net",
     )
 
 
@@ -238,7 +238,7 @@ NOTES: dict[str, tuple[str, Callable[[], Prelikon]]] = {
         lambda: body(boundaries=[boundary("buttock 30", (0, 0), (40, 0.25), y=30.0)]),
     ),
     "boxes": (
-        "2 appendage boxes are told here and not in the net",
+        "2 appendage boxes are outlined beside the net",
         lambda: body(boxes=[AppendageBox.make((1, 2), (0, 1), (0, 1))] * 2),
     ),
 }  # fmt: skip

@@ -147,7 +147,7 @@ def test_a_report_tells_volumes_and_centres_of_appendages() -> None:
     assert report.figure("volume of skeg").value == pytest.approx(3.0)
     assert report.figure("centre of skeg, x").value == pytest.approx(-1 + 16 / 9)
     assert report.figure("volume of tunnel").value < 0.0
-    assert "appendages are not in the net: skeg, tunnel" in report.notes
+    assert "appendages are outlined beside the net: skeg, tunnel" in report.notes
     assert any(each.startswith("knuckle line 'shelf': is not looked at") for each in report.notes)
 
 
