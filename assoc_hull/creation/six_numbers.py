@@ -221,9 +221,9 @@ def _range_notes(kind: ShipType, six: SixNumbers) -> list[DesignNote]:
     for name, (least, most) in {"length": kind.length, **kind.ratios}.items():
         value, room = asked[name], most - least
         unit = {"length": "m", "lcb": "% L"}.get(name, "")
-        if not least - room <= value <= most + room:
+        far = max(least - room, 0.25 * least) if least > 0.0 else least - room
+        if not far <= value <= most + room:
             why = f"is far out of the range of a {kind.name}"
-            far = max(least - room, 0.25 * least) if least > 0.0 else least - room
             raise OutOfRangeError(name, value, _CALL, why, far, most + room, unit)
         if not least <= value <= most:
             remark = f"out of the range of use of a {kind.name}: look at the lines"

@@ -161,6 +161,9 @@ def _cut(
     for place in places:
         for shift in _SHIFTS:
             at = round(place + shift * size, 3)
+            # Below the base line, or beyond the centre plane, is no place for a line.
+            if at <= 0.0:
+                continue
             if any(abs(at - other) < 0.02 * size for other in (*found, *places) if other != place):
                 continue
             try:

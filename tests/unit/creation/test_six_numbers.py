@@ -189,3 +189,21 @@ def test_full_ship_with_its_buoyancy_far_ahead_has_a_short_full_entrance() -> No
     found = coefficients(areas, design.particulars)
     assert found.block == pytest.approx(0.834, abs=1e-12)
     assert found.centroid == pytest.approx(0.0339 * 240.0, abs=1e-9)
+
+
+def test_a_ship_shorter_than_the_error_allows_is_refused() -> None:
+    """What the message calls the least is the least that is taken."""
+    with pytest.raises(ah.errors.OutOfRangeError, match=r"length of 10 m .* from 17\.5 to"):
+        ah.create(
+            length=10.0, breadth=1.6, draught=0.65, depth=0.9, cb=0.7, lcb=0.0,
+            type="general cargo",
+        )  # fmt: skip
+
+
+def test_a_line_is_not_shifted_below_the_base_line() -> None:
+    """The largest bilge that a refusal names does not end in a plane that meets nothing."""
+    hull = ah.create(
+        length=100.0, breadth=16.0, draught=6.5, depth=9.0, cb=0.7, lcb=0.0,
+        type="general cargo", bilge_radius=5.85,
+    )  # fmt: skip
+    assert hull.hydrostatics().cb == pytest.approx(0.7, abs=1e-6)
