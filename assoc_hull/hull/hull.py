@@ -737,8 +737,8 @@ class Hull:
         Returns
         -------
         (k, 3), m
-            The places, in order along each curve; none where the line does not come there, or
-            lies in the plane.
+            The places where it passes, touches or ends on the plane, in order along each curve;
+            the two ends of a run along the plane; none where the line lies in the plane.
 
         Raises
         ------

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import ItemsView, Iterator, Mapping, Sequence, ValuesView
-from types import MappingProxyType
 from typing import ClassVar, Self
 
 import attrs
@@ -28,7 +27,7 @@ from assoc_hull.geometry.plane import Plane, as_plane
 from assoc_hull.geometry.splines.arc_length import arc_length
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import curvature, evaluate, sample
-from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.geometry.splines.plane_intersections import on_plane, points_on_plane
 from assoc_hull.model.address import AddressBook, ResolvedAddress, resolve_address
 from assoc_hull.model.dirty_cause import DirtyCause, cause_of
 from assoc_hull.model.feature_geometry import line_numbers
@@ -688,9 +687,18 @@ class Line(Handle):
 
 
 def _met(tables: HullState, curves: Sequence[int], plane: Plane) -> FloatArray:
-    """Give the places where curves meet a plane, curve by curve, (k, 3), m; frozen."""
-    offsets = np.array([plane.offset])
-    found = [intersect_planes(tables.spline(each), plane.normal, offsets).xyz for each in curves]
+    """Give the places where curves pass, touch or end on a plane, (k, 3), m; frozen.
+
+    Of a run along the plane its two ends count, of a curve that lies in it none.
+    """
+    found = []
+    for curve in curves:
+        spline = tables.spline(curve)
+        on = on_plane(spline, plane.normal, plane.offset)
+        if not on.all():
+            met = points_on_plane(spline, plane.normal, plane.offset)
+            inside = spline.knot[1:-1][on[:-2] & on[1:-1] & on[2:]]
+            found.append(met.xyz[~np.isin(met.t, inside)])
     places = np.concatenate([*found, np.zeros((0, 3))])
     freeze(places)
     return places
@@ -1001,7 +1009,7 @@ class Points(Mapping[str, Point]):
         state = self._state
         for _, point in self._all():
             found[_role(state, point.row)].append(point)
-        return MappingProxyType({role: tuple(points) for role, points in found.items()})
+        return NamedMapping("role", {role: tuple(points) for role, points in found.items()})
 
     def _all(self) -> Iterator[tuple[str, Point]]:
         """Give all points by address from one book: a look-up each would make one each."""

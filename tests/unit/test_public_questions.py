@@ -27,6 +27,20 @@ def test_a_line_meets_a_plane_where_its_neighbours_would_cross_it(hull: ah.Hull)
     assert hull.meet("WL 3.125", x=-50.0).shape == (0, 3)
 
 
+@pytest.mark.parametrize("line", ["WL 3.125", "deck edge", "profile"])
+def test_a_line_ends_on_a_plane_aft_as_it_does_forward(hull: ah.Hull, line: str) -> None:
+    """An end on the plane is a place, whichever end; of a stem along it its two ends count."""
+    aft, forward = hull.meet(line, x=0.0), hull.meet(line, x=100.0)
+    assert len(aft) == len(forward) == (2 if line == "profile" else 1)
+    assert sorted(aft[:, 2]) == sorted(forward[:, 2])
+
+
+def test_a_touch_is_one_place(hull: ah.Hull) -> None:
+    """The waterline at its greatest breadth, a section at its lowest point."""
+    np.testing.assert_allclose(hull.meet("WL 6.25", y=5.0), [[50.0, 5.0, 6.25]], atol=1e-9)
+    assert hull.meet("ST 4", z=0.0).shape == (1, 3)
+
+
 @pytest.mark.parametrize(
     ("ask", "error", "word"),
     [

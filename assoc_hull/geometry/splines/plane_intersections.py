@@ -47,6 +47,7 @@ __all__ = [
     "PointsOnCurves",
     "coordinate_turns",
     "intersect_planes",
+    "on_plane",
     "points_at_coordinate",
     "points_on_plane",
     "stretches_in_plane",
@@ -445,7 +446,7 @@ def points_on_plane(batch: SplineBatch, normal: FloatArray, offset: float) -> Po
     """
     found = intersect_planes(batch, normal, np.array([offset]))
     owner = np.repeat(np.arange(batch.count), np.diff(batch.start))
-    on = np.abs(batch.xyz @ normal - offset) <= _ON
+    on = on_plane(batch, normal, offset)
     curve = np.concatenate([owner[on], found.curve])
     t = np.concatenate([batch.knot[on], found.t])
     xyz = np.concatenate([batch.xyz[on], found.xyz])
@@ -455,6 +456,12 @@ def points_on_plane(batch: SplineBatch, normal: FloatArray, offset: float) -> Po
     new[1:] = (np.diff(curve) != 0) | (np.diff(t) > _ON)
     curve, t, xyz = curve[new], t[new], xyz[new]
     return PointsOnCurves(curve, t, xyz, derivative(batch, curve, t))
+
+
+def on_plane(batch: SplineBatch, normal: FloatArray, offset: float) -> NDArray[np.bool_]:
+    """Tell which knots lie within 1e-6 m of a plane, (n,)."""
+    found: NDArray[np.bool_] = np.abs(batch.xyz @ normal - offset) <= _ON
+    return found
 
 
 def points_at_coordinate(batch: SplineBatch, axis: int, value: float) -> PointsOnCurves:

@@ -18,6 +18,7 @@ from assoc_hull.errors import (
     OutOfRangeError,
     RefusedEditError,
     UnknownNameError,
+    WrongTypeError,
 )
 from assoc_hull.model.definition.records import definition
 from assoc_hull.model.definition.restore import from_definition
@@ -223,6 +224,23 @@ def test_no_two_things_have_one_name(hull: ah.Hull, name: str) -> None:
     for act in acts:
         with pytest.raises(NameTakenError), hull.edit("taken") as edit:
             act(edit)
+
+
+@pytest.mark.parametrize("ask", [
+    lambda edit: edit.remove_line("Bow Thruster"), lambda edit: edit.move("bow thruster", y=1.0),
+    lambda edit: edit.group("stern", ["bow thruster"]),
+])  # fmt: skip
+def test_what_takes_lines_and_points_says_that_it_is_a_tunnel(
+    hull: ah.Hull, ask: Callable[[Edit], object]
+) -> None:
+    """It is there, and the edits that change it are named."""
+    before = hull.fingerprint
+    with (
+        pytest.raises(WrongTypeError, match=r"is a tunnel.*remove_tunnel"),
+        hull.edit("no") as edit,
+    ):
+        ask(edit)
+    assert hull.fingerprint == before
 
 
 def test_an_unknown_tunnel_is_refused_with_the_names_there_are(hull: ah.Hull) -> None:
