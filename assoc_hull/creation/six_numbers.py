@@ -203,6 +203,10 @@ def design_for(
 # Ranges.
 
 
+_LEAST_DEPTH = 1.05
+"""D/T: with less there is no freeboard to speak of."""
+
+
 def _range_notes(kind: ShipType, six: SixNumbers) -> list[DesignNote]:
     """Refuse what lies far out of the ranges of a type, tell of what lies a little out."""
     for field in attrs.fields(SixNumbers):
@@ -211,18 +215,19 @@ def _range_notes(kind: ShipType, six: SixNumbers) -> list[DesignNote]:
             number(value, "lcb", _CALL)
         else:
             positive(value, field.name, _CALL)
-    if six.depth <= six.draught * 1.05:
+    shallow, deep = kind.ratios["D/T"]
+    if six.depth < six.draught * _LEAST_DEPTH * (1.0 - 1e-9):
         why = f"leaves no freeboard at a draught of {six.draught:g} m"
-        raise OutOfRangeError(
-            "depth", six.depth, _CALL, why, 1.05 * six.draught, 4.0 * six.draught, "m"
-        )
+        low, high = (six.draught * each for each in (_LEAST_DEPTH, 2.0 * deep - shallow))
+        raise OutOfRangeError("depth", six.depth, _CALL, why, low, high, "m")
     notes = []
     asked = {"length": six.length, **six.ratios()}
     for name, (least, most) in {"length": kind.length, **kind.ratios}.items():
         value, room = asked[name], most - least
         unit = {"length": "m", "lcb": "% L"}.get(name, "")
         far = max(least - room, 0.25 * least) if least > 0.0 else least - room
-        if not far <= value <= most + room:
+        far = max(far, _LEAST_DEPTH) if name == "D/T" else far
+        if not far - 1e-9 <= value <= most + room + 1e-9:
             why = f"is far out of the range of a {kind.name}"
             raise OutOfRangeError(name, value, _CALL, why, far, most + room, unit)
         if not least <= value <= most:

@@ -61,6 +61,7 @@ def ship_type(name: str) -> ShipType:
     Raises UnknownNameError, or BadInputError for one that is not made well.
     """
     name = " ".join(name.lower().split())
+    name = next((each for each in _NOT_YET if name in each.split()), name)  # "yacht" is one, too
     if name in _NOT_YET:
         known = ", ".join(SHIP_TYPES)
         raise BadInputError(

@@ -191,6 +191,18 @@ def test_full_ship_with_its_buoyancy_far_ahead_has_a_short_full_entrance() -> No
     assert found.centroid == pytest.approx(0.0339 * 240.0, abs=1e-9)
 
 
+@pytest.mark.parametrize("asked", [6.0, 20.0])
+def test_depths_that_a_refusal_names_are_taken(asked: float) -> None:
+    """Both ends of the interval, to the last bit."""
+    kind = ship_type("general cargo")
+    with pytest.raises(ah.errors.OutOfRangeError) as refusal:
+        design_for(kind, SixNumbers(**SIX | {"depth": asked}))
+    error = refusal.value
+    factor = 1.0 if error.unit == "m" else SIX["draught"]
+    for depth in (error.least, error.most):
+        design_for(kind, SixNumbers(**SIX | {"depth": factor * depth}))
+
+
 def test_a_ship_shorter_than_the_error_allows_is_refused() -> None:
     """What the message calls the least is the least that is taken."""
     with pytest.raises(ah.errors.OutOfRangeError, match=r"length of 10 m .* from 17\.5 to"):

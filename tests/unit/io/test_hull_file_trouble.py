@@ -81,7 +81,7 @@ def test_a_database_of_something_else(tmp_path: Path, capfd: pytest.CaptureFixtu
     refused(path, capfd, "a database of something else")
 
 
-@pytest.mark.parametrize("part", [0.001, 0.3, 0.6, 0.99])
+@pytest.mark.parametrize("part", [0.0005, 0.3, 0.6, 0.99])
 def test_a_file_that_is_cut_off(file: Path, part: float, capfd: pytest.CaptureFixture[str]) -> None:
     """Says how much is missing, or that it is none."""
     whole = file.read_bytes()
