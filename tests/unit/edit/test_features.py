@@ -154,11 +154,11 @@ def test_a_new_line_has_its_features_and_gives_others_points(bulk_carrier: ah.Hu
     with taken_back(bulk_carrier):
         count = len(bulk_carrier.features["flat of side"].points)
         edited(bulk_carrier, lambda edit: edit.add_line("sections", 160.0))
-        arc = bulk_carrier.features["ST 160 arc"]
+        arc = bulk_carrier.features["ST 10.667 arc"]
         assert arc.parameters["radius"] == pytest.approx(2.4, abs=2e-6)
         assert len(bulk_carrier.features["flat of side"].points) == count + 1
-        gone, notes = edited(bulk_carrier, lambda edit: edit.remove_line("ST 160"))
-        assert gone == {"ST 160 arc", "ST 160 straight", "ST 160 straight 2"}
+        gone, notes = edited(bulk_carrier, lambda edit: edit.remove_line("ST 10.667"))
+        assert gone == {"ST 10.667 arc", "ST 10.667 straight", "ST 10.667 straight 2"}
         assert "feature" not in notes
         assert all_on(bulk_carrier)
 

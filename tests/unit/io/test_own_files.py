@@ -50,7 +50,7 @@ def edited(shipped: Shipped) -> Hull:
         edit.set_end("WL 1.25", "start", tangent=(1.0, 0.3, 0.0))
         edit.set_end("WL 1.25", "finish", curvature=(0.0, 0.001, 0.0))
         edit.add_line("sections", 33.3)
-        edit.rename("ST 33.3", 'Spant 7 ü^|% "x"')
+        edit.rename("ST 6.66", 'Spant 7 ü^|% "x"')
     return hull
 
 
