@@ -13,10 +13,9 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.carried_net import CarriedNet
-from assoc_hull.edit.mapped_bodies import carry_bodies
+from assoc_hull.edit.mapped_attachments import carry_attachments
 from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.mapped_planes import TransformedPlanes
-from assoc_hull.edit.mapped_tunnels import carry_tunnels
 from assoc_hull.edit.recut.carried_points import (
     TransformationState,
     carry_directions,
@@ -99,8 +98,7 @@ def carry_net(edit: Transaction, by: NetMap) -> TransformationState:
     move_planes(maker, by.planes)
     if by.particulars != state.particulars:
         edit.journal.set(state.settings.particulars, [0], [by.particulars])
-    pending.notes += carry_tunnels(state, edit.journal, by.space)
-    pending.notes += carry_bodies(state, edit.journal, by.space)
+    pending.notes += carry_attachments(state, edit.journal, by.space)
     rows = given_points(state)
     edit.write(rows, work.value[rows], "carrying a net")
     pending.features = _features(work, by)

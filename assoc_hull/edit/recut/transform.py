@@ -15,10 +15,9 @@ import numpy as np
 
 from assoc_hull.edit.carried_net import CarriedNet
 from assoc_hull.edit.crossings.settle_crossings import make_latent
-from assoc_hull.edit.mapped_bodies import carry_bodies
+from assoc_hull.edit.mapped_attachments import carry_attachments
 from assoc_hull.edit.mapped_features import carry_features
 from assoc_hull.edit.mapped_planes import TransformedPlanes, carry_planes
-from assoc_hull.edit.mapped_tunnels import carry_tunnels
 from assoc_hull.edit.recut.carried_points import (
     DefiningPoints,
     TransformationState,
@@ -132,7 +131,7 @@ def transform(
     size = state.particulars
     if particulars is not None:
         edit.journal.set(state.settings.particulars, [0], [particulars])
-    went = carry_tunnels(state, edit.journal, space) + carry_bodies(state, edit.journal, space)
+    went = carry_attachments(state, edit.journal, space)
     if not _anything(state, work):
         _tell(edit, work, 0, size)
         return 0
