@@ -13,7 +13,7 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 JOINED = ("CHANGELOG.md", "CONTRIBUTING.md")
-TABLES = ("catalogue", "named_parameters", "commands", "parameter_figures")
+TABLES = ("catalogue", "named_parameters", "commands", "parameter_figures", "thresholds")
 
 
 def on_config(config: Any) -> Any:

@@ -58,8 +58,15 @@ def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) ->
         ("variation.md", "| `entrance_deg` |"),
         ("cli.md", "usage: assoc-hull jumboise"),
         ("variation_figures.md", "| bilge_radius | 3 |"),
+        ("features_of_lines.md", "| `ArcRule` |"),
     ],
-    ids=["form parameters", "named parameters", "commands", "figures of the parameters"],
+    ids=[
+        "form parameters",
+        "named parameters",
+        "commands",
+        "figures of the parameters",
+        "thresholds",
+    ],
 )
 def test_tables_that_are_made_from_the_code_stand_on_the_site(name: str, entry: str) -> None:
     """The site puts them at a mark of the page, which the page in the repository only has."""
