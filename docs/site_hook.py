@@ -13,7 +13,14 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 JOINED = ("CHANGELOG.md", "CONTRIBUTING.md")
-TABLES = ("catalogue", "named_parameters", "commands", "parameter_figures", "thresholds")
+TABLES = (
+    "catalogue",
+    "named_parameters",
+    "commands",
+    "parameter_figures",
+    "thresholds",
+    "table5_values",
+)
 
 
 def on_config(config: Any) -> Any:

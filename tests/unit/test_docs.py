@@ -59,6 +59,7 @@ def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) ->
         ("cli.md", "usage: assoc-hull jumboise"),
         ("variation_figures.md", "| bilge_radius | 3 |"),
         ("features_of_lines.md", "| `ArcRule` |"),
+        ("table5.md", "| `KMT` |"),
     ],
     ids=[
         "form parameters",
