@@ -15,6 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 JOINED = ("CHANGELOG.md", "CONTRIBUTING.md")
 TABLES = (
     "catalogue",
+    "hull_file_columns",
     "named_parameters",
     "commands",
     "parameter_figures",
