@@ -9,7 +9,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.hull import Hull
-from assoc_hull.io.dxf.own_drawing import own_dxf_lines
+from assoc_hull.io.importing.own_files import own_dxf_lines
 from tests.conftest import Shipped
 from tests.long_forms import LONG
 from tests.own_files import FORMS, facts, went_and_came
