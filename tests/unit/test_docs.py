@@ -53,7 +53,7 @@ def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) ->
 @pytest.mark.usefixtures("made_already")
 @pytest.mark.parametrize(
     ("name", "entry"),
-    [("parameters.md", "| `Cb` |"), ("variation.md", "| `entrance_deg` |")],
+    [("parameters.md", "| `Cb` |"), ("named_parameters.md", "| `entrance_deg` |")],
     ids=["form parameters", "named parameters"],
 )
 def test_tables_that_are_made_from_the_code_stand_on_the_site(name: str, entry: str) -> None:
