@@ -10,7 +10,7 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 JOINED = ("CHANGELOG.md", "CONTRIBUTING.md")
-TABLES = ("catalogue", "named_parameters")
+TABLES = ("catalogue", "hydrostatic_values", "named_parameters")
 
 
 def on_config(config: Any) -> Any:

@@ -53,8 +53,12 @@ def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) ->
 @pytest.mark.usefixtures("made_already")
 @pytest.mark.parametrize(
     ("name", "entry"),
-    [("parameters.md", "| `Cb` |"), ("named_parameters.md", "| `entrance_deg` |")],
-    ids=["form parameters", "named parameters"],
+    [
+        ("parameters.md", "| `Cb` |"),
+        ("named_parameters.md", "| `entrance_deg` |"),
+        ("hydrostatic_values.md", "| `kmt` | KM_T | m |"),
+    ],
+    ids=["form parameters", "named parameters", "hydrostatic values"],
 )
 def test_tables_that_are_made_from_the_code_stand_on_the_site(name: str, entry: str) -> None:
     """The site puts them at a mark of the page, which the page in the repository only has."""
