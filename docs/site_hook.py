@@ -15,6 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 JOINED = ("CHANGELOG.md", "CONTRIBUTING.md")
 TABLES = (
     "catalogue",
+    "hydrostatic_values",
     "named_parameters",
     "commands",
     "parameter_figures",

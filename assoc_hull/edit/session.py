@@ -439,7 +439,7 @@ class Edit:
 
         Notes
         -----
-        docs/leading.md tells what a lead does, docs/fair_edits.md how it is solved.
+        docs/leading.md tells what a lead does, docs/fair_edits_method.md how it is solved.
 
         Examples
         --------
