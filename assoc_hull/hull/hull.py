@@ -48,7 +48,7 @@ from assoc_hull.model.tables import Association, HullState, Particulars, copy_st
 from assoc_hull.tolerance import Tolerances
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Collection, Iterable
     from os import PathLike
     from typing import Any, Literal
 
@@ -2649,14 +2649,15 @@ features
         )  # fmt: skip
 
     def mesh(
-        self, *, half: bool = False, points: int = 4, leave_out: Sequence[str] = ()
+        self, *, half: bool = False, points: int = 4, leave_out: Collection[str] = ()
     ) -> ClosedMesh:
         """Make a closed mesh on the lines of a hull: for panels, printing, a check of volumes.
 
         The lines part the hull into cells; these are filled with elements that fit together along
         every edge. Deck and transom are covered, whatever the particulars say of the deck, and the
         half is mirrored. The mesh comes from the lines alone: it shares nothing with
-        `Hull.hydrostatics` but these. Tunnels that the hull holds go through it, each a group.
+        `Hull.hydrostatics` but these. Tunnels that the hull holds go through it, each a group;
+        bodies beside the net stand beside it, each a group that is closed by itself.
 
         Parameters
         ----------
@@ -2664,8 +2665,8 @@ features
             The port half only, open in the centre plane.
         points : int
             Into how many parts each piece of a line between two crossings is cut: even, 2 to 64.
-        leave_out : sequence of str
-            Names of lines and tunnels to do without.
+        leave_out : collection of str
+            Names of lines, tunnels and bodies to do without; `bodies` itself for all of these.
 
         Returns
         -------
@@ -2677,7 +2678,7 @@ features
         BadInputError
             A curve of the hull has failed, or an option is out of its range.
         UnknownNameError
-            A line to leave out does not exist.
+            What is to be left out does not exist.
         OpenNetError
             The lines do not part the hull into cells; those at fault are named.
         OpenMeshError
@@ -2878,6 +2879,7 @@ features
         half: bool = False,
         points: int | None = None,
         accept: bool = False,
+        leave_out: Collection[str] = (),
     ) -> Any:
         """Write offsets, lines, the surface or the closed mesh for other programs.
 
@@ -2897,6 +2899,8 @@ features
             Of a mesh: into how many parts each piece of a line between two crossings is cut.
         accept : bool
             Of surfaces: also one that crosses the centre plane or leaves its residual limits.
+        leave_out : collection of str
+            Of a mesh: names of lines, tunnels and bodies to do without.
 
         Returns
         -------
@@ -2915,8 +2919,9 @@ features
 
         self.document.require_ended("export")
         return export_file(
-            self, path, form, unit, scale=scale, half=half, points=points, accept=accept
-        )
+            self, path, form, unit, scale=scale, half=half, points=points, accept=accept,
+            leave_out=leave_out,
+        )  # fmt: skip
 
     def report(
         self,

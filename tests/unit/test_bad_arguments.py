@@ -133,7 +133,8 @@ HULL: dict[str, Given] = {
                "appendages": (), "on_error": "refuse", "surface": None, "plates": None,
                "title": "t", "date": None},
     "export": {"path": "no-such-folder/a.dxf", "form": None, "unit": None,
-               "scale": None, "half": False, "points": None, "accept": False},
+               "scale": None, "half": False, "points": None, "accept": False,
+               "leave_out": ()},
 }  # fmt: skip
 EDIT: dict[str, Given] = {
     "fair": FAIR,
