@@ -40,6 +40,7 @@ from assoc_hull.edit.session import Edit, join_edit, open_edit
 from assoc_hull.edit.write_lock import PATIENCE
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError, WrongTypeError
 from assoc_hull.model.address import AddressBook
+from assoc_hull.model.attachments import attachment_named
 from assoc_hull.model.kinds import FAMILIES, OWN
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.named_mapping import NamedMapping
@@ -119,6 +120,8 @@ if TYPE_CHECKING:
     from assoc_hull.variation.request import Planes, Stations
     from assoc_hull.variation.sensitivities import Sensitivities
     from assoc_hull.variation.shifts.shift_terms import Fade, ShiftShape, Terminals
+
+    Named = Group | Line | Curve | Point | Tunnel | AttachedBody
 
 __all__ = ["Hull"]
 
@@ -556,9 +559,23 @@ class Hull:
         self.document.go(name)
 
     def diff(self, before: str, after: str | None = None) -> Comparison:
-        """Compare two checkpoints or branches, or one with the present state."""
+        """Compare two checkpoints or branches, or one with the present state.
+
+        `assoc_hull.variation.compare` compares two hulls.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no checkpoint or branch of a name.
+        WrongTypeError
+            A hull was given.
+        """
         from assoc_hull.edit.explain.compare_states import compare_labelled
 
+        if any(isinstance(each, Hull) for each in (before, after)):
+            what = "diff compares states of one hull by their names; a hull was given"
+            remedy = "call ah.variation.compare(hull, other) for two hulls"
+            raise WrongTypeError(what, "in diff", remedy)
         return compare_labelled(self.document, before, after)
 
     def replay(self, other: Hull, *, skip: bool = False) -> tuple[Replayed, ...]:
@@ -568,12 +585,12 @@ class Hull:
         steps = instance(other, Hull, "other", "in replay").document.history
         return replay(self.document, steps, skip=flag(skip, "skip", "in replay"))
 
-    def __getitem__(self, address: str) -> Group | Line | Curve | Point | Tunnel:
-        """Give the line, point, curve, group or tunnel that an address names, as `find` does."""
+    def __getitem__(self, address: str) -> Named:
+        """Give what an address names: a line, point, curve, group, tunnel or body; as `find`."""
         return self.find(address)
 
     def __contains__(self, address: object) -> bool:
-        """Whether an address names a line, point, curve, group or tunnel of the hull."""
+        """Whether an address names a line, point, curve, group, tunnel or body of the hull."""
         try:
             if isinstance(address, str) and not address.strip():
                 return False  # nothing is named so
@@ -585,11 +602,20 @@ class Hull:
     # A hull is no sequence: without this, Python would ask it for hull[0], hull[1], ...
     __iter__ = None
 
-    def find(self, address: str) -> Group | Line | Curve | Point | Tunnel:
-        """Give what an address names; see `assoc_hull.model.address`. Tunnels have a name only."""
-        if self.state.tunnels and address in self.tunnels:
-            return self.tunnels[address]
-        return handle(self.state, address)
+    def find(self, address: str) -> Named:
+        """Give what an address names; see `assoc_hull.model.address`.
+
+        Tunnels and bodies have a name only.
+        """
+        try:
+            return handle(self.state, address)
+        except WrongTypeError:
+            # What no line or point is called may stand beside the net.
+            beside = attachment_named(self.state, text(address, "the address", "in a look-up"))
+            if beside is None:
+                raise
+            name = beside[1].name
+            return self.tunnels[name] if name in self.tunnels else self.bodies[name]
 
     @property
     def dirty(self) -> Dirty:
@@ -781,10 +807,8 @@ class Hull:
         ----------
         name : str
             What it is called.
-        x, z : float, m
-            Of its axis, from AP and from the base line.
-        radius : float, m
-            Of its inside.
+        x, z, radius : float, m
+            Of its axis, from AP and from the base line; of its inside.
 
         Returns
         -------
