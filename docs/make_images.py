@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 from drawings.battens import classical_splines
 from drawings.biarcs import biarc_kinds
 from drawings.closed_mesh import closed_mesh_stern
@@ -54,6 +55,7 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
 
+import assoc_hull as ah
 from assoc_hull.analysis.form.curve_transform import curve_transform
 from assoc_hull.analysis.form.floating_shape import Screw
 from assoc_hull.analysis.form.form_parameters import form_report
@@ -70,6 +72,7 @@ from assoc_hull.plot.diagrams.form_curve import form_curve_picture
 from assoc_hull.plot.diagrams.form_report import form_sheets
 from assoc_hull.plot.diagrams.hydrostatics import hydrostatic_curves
 from assoc_hull.plot.diagrams.stability import lever_picture
+from assoc_hull.plot.diagrams.study import study_scatter
 from assoc_hull.plot.lines_plan.plan import lines_plan
 from assoc_hull.plot.plates.panel_plan import panel_plan
 
@@ -132,6 +135,27 @@ def mesh() -> Figure:
     return panel_plan(panels(examples.bulk_carrier_207k(), draughts=(20.0, 17.0), count=800))
 
 
+def study_front() -> Figure:
+    """Draw 64 variants of Wigley's hull: wetted surface and KM_T, and which are the best."""
+    drawn = ah.study.sample({"breadth": (9.5, 10.5), "draught": (5.9, 6.6)}, 64, seed=1)
+    parent = examples.wigley(stations=9, waterlines=6)
+    made = parent.study(set=drawn, outputs=["kmt", "wetted_surface"])
+    better = {"kmt": "more", "wetted_surface": "less"}
+    return study_scatter(made, "wetted_surface", "kmt", better=better)
+
+
+def resistance_curve() -> Figure:
+    """Draw the parts of the resistance of the bulk carrier over its speed."""
+    found = examples.bulk_carrier_207k().resistance(np.linspace(8.0, 16.0, 33), c_stern=10)
+    figure, axes = plt.subplots(figsize=(7.0, 3.6), layout="constrained")
+    parts = {"friction and form": found.friction + found.form, "correlation": found.correlation}
+    parts |= {"bulb": found.bulb, "waves": found.waves}
+    axes.stackplot(found.speeds, *parts.values(), labels=list(parts))
+    axes.set(xlabel="speed, kn", ylabel="resistance, kN", xlim=(8.0, 16.0))
+    axes.legend(loc="upper left", frameon=False)
+    return figure
+
+
 def plain_ship() -> Figure:
     """Draw the lines plan of the plain ship, which is created from form parameters."""
     return lines_plan(examples.plain_ship(), paper="A4")
@@ -169,6 +193,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "righting_levers": levers,
     "curve_series": series,
     "panels": mesh,
+    "study_front": study_front,
+    "resistance": resistance_curve,
     "closed_mesh": closed_mesh_stern,
     "form_curve": form_curve,
     "biarcs": biarc_kinds,

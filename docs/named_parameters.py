@@ -1,8 +1,8 @@
 """The named parameters as tables: `python docs/named_parameters.py` prints them.
 
 What they say comes from the catalogue, from measures and layouts on the bulk carrier, and from its
-list of what may be asked. `docs/site_hook.py` puts them at the mark of `docs/variation.md` when the
-site is built, so that they are always those of the code.
+list of what may be asked. `docs/site_hook.py` puts them at the mark of `docs/named_parameters.md`
+when the site is built, so that they are always those of the code.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from assoc_hull.variation.parameters.parameter_fields import main_layer
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import Parent, parent_of
 
-PAGE = "variation.md"
+PAGE = "named_parameters.md"
 MARK = "<!-- named parameters -->\n"
 REACHES = [
     field.name for field in attrs.fields(Layout)

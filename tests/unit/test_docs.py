@@ -55,7 +55,8 @@ def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) ->
     ("name", "entry"),
     [
         ("parameters.md", "| `Cb` |"),
-        ("variation.md", "| `entrance_deg` |"),
+        ("named_parameters.md", "| `entrance_deg` |"),
+        ("hydrostatic_values.md", "| `kmt` | KM_T | m |"),
         ("cli.md", "usage: assoc-hull jumboise"),
         ("variation_figures.md", "| bilge_radius | 3 |"),
         ("features_of_lines.md", "| `ArcRule` |"),
@@ -65,6 +66,7 @@ def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) ->
     ids=[
         "form parameters",
         "named parameters",
+        "hydrostatic values",
         "commands",
         "figures of the parameters",
         "thresholds",
