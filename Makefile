@@ -65,7 +65,7 @@ bench: $(STAMP)  ## the benchmarks
 # package itself needs is in it, too: tables of the pages are made from the code.
 SITE := build/docs-env
 
-$(SITE)/.installed: requirements/docs.txt
+$(SITE)/.installed: requirements/docs.txt requirements/ci.txt Makefile
 	@test -n "$(PYTHON)" || { echo "error: no Python 3.11 or newer with venv was found" >&2; exit 2; }
 	$(PYTHON) -m venv $(SITE)
 	$(SITE)/bin/python -m pip install --quiet --requirement requirements/docs.txt

@@ -1,6 +1,6 @@
 """Every named parameter on two ships: what was reached, what moved, and how fair it is.
 
-``python -m benchmarks.vary_all [--write docs/variation_figures.md] [name ...]`` varies the bulk
+``python -m benchmarks.vary_all [--write docs/variation_figures.json] [name ...]`` varies the bulk
 carrier, and the Duisburg Test Case where the data folder is there, by each parameter alone, in both
 senses, and prints tables.
 """
@@ -8,6 +8,7 @@ senses, and prints tables.
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 import time
 from collections.abc import Sequence
@@ -269,16 +270,18 @@ def _inside(xyz: FloatArray, found: Variation) -> np.typing.NDArray[np.bool_]:
     return inside
 
 
-def table(found: Sequence[Row]) -> str:
-    """Give rows as a Markdown table."""
-    lines = [HEAD, tuple("---" for _ in HEAD), *(row.cells() for row in found)]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+def table(found: Sequence[Row]) -> list[tuple[str, ...]]:
+    """Give the head and rows of the table of variants."""
+    return [HEAD, *(row.cells() for row in found)]
 
 
-def faired_table(found: Sequence[Row]) -> str:
-    """Give a table of the same variants with faired followers, and how many add no sign change."""
-    cells = [row.faired_cells() for row in found]
-    lines = [FAIRED_HEAD, tuple("---" for _ in FAIRED_HEAD), *cells]
+def faired_table(found: Sequence[Row]) -> list[tuple[str, ...]]:
+    """Give the head and rows of the same variants with faired followers."""
+    return [FAIRED_HEAD, *(row.faired_cells() for row in found)]
+
+
+def faired_sum(found: Sequence[Row]) -> str:
+    """Say how many variants add no sign change, by the map alone and faired."""
     had = [row for row in found if not row.trouble]
     plain, none, count = _fair_ones(had)
     faired = [row.faired for row in had if row.faired is not None and not row.faired.trouble]
@@ -289,14 +292,13 @@ def faired_table(found: Sequence[Row]) -> str:
         f"{row.name} {row.worst:.2f} to {row.faired.worst:.2f}" for row in had
         if row.faired is not None and row.faired.worst > _MORE * row.worst
     )  # fmt: skip
-    told = (
+    return (
         f"Of {count} variants {plain} add no change of sign without fairing, {none} with it; in "
         f"{lost} no line at all gains one. Without sheer, frames, entrance, run, fullness, length "
         f"of the body, area and section height of the bulb: {first[0]} and {first[1]} of "
         f"{first[2]}. The worst comb is {combs[0]:.2f} times the parent's without, {combs[1]:.2f} "
         f"with it; combs that fairing made larger: {larger or 'none'}."
     )
-    return "\n".join([*(f"| {' | '.join(line)} |" for line in lines), "", told])
 
 
 def _fair_ones(had: Sequence[Row]) -> tuple[int, int, int]:
@@ -322,40 +324,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print("the data folder is not there: no DTC", file=sys.stderr)
             continue
         for sense, word in ((1.0, "as asked"), (-1.0, "the opposite signs")):
-            title = f"## {hull.particulars.name}, {word}"
+            title = f"{hull.particulars.name}, {word}"
             print(title, file=sys.stderr, flush=True)
             found = rows(hull, sense, names)
-            parts += [title, "", table(found), "", f"### {hull.particulars.name}, {word}, faired"]
-            parts += [""]
-            parts += [faired_table(found), ""]
+            parts.append(_as_json(title, "", table(found)))
+            parts.append(_as_json(f"{title}, faired", faired_sum(found), faired_table(found)))
     day = datetime.now(UTC).date().isoformat()
-    text = "\n".join([_ABOUT.format(day=day), *parts])
+    text = f'{{"day": "{day}", "tables": [\n' + ",\n".join(parts) + "\n]}\n"
     print(text)
     if chosen.write:
-        chosen.write.write_text(text.rstrip() + "\n", encoding="utf-8")
+        chosen.write.write_text(text, encoding="utf-8")
     return 0
 
 
-_ABOUT = """# Figures of the named parameters
+def _as_json(title: str, note: str, cells: Sequence[Sequence[str]]) -> str:
+    """Give a table as JSON, a line per row, so that differences of two runs are read."""
+    lines = ",\n".join(f"  {json.dumps(row)}" for row in cells)
+    head = f'"title": {json.dumps(title)}, "note": {json.dumps(note)}'
+    return f'{{{head}, "rows": [\n{lines}\n]}}'
 
-Each of the [named parameters](variation.md) alone, on two ships, measured on {day} with
-`python -m benchmarks.vary_all --write docs/variation_figures.md`.
-
-*Missed by*: measured on the lines of the variant less asked, m or degrees. *Points*: how many
-outside the reported region are not what they were to the last bit, of drivers and of followers;
-behind the +, crossings that are computed from a driver which runs through the region, and how far
-the farthest of them moved. *Sign changes* of curvature beyond a dead band of 2e-3 1/m on the lines
-that changed, and the ratio of the integrals of the squared slope of the curvature comb.
-
-*Faired*, with `fair=True`: sign changes added over all lines, by the map alone and faired; the same
-over the lines that gain some, which are named; points that fairing moved, and the farthest. The
-profile and other boundary curves stay as the map takes them, so what they gain is left.
-
-Ends of the parallel body are moved by a fifth of its length at most. That of the DTC is 28 m long
-on her mesh: from x = 155 to 183 m sections are within 13 mm of that at 160 m, which is what facets
-leave; 5 m farther aft they are 62 mm off, 5 m farther forward 60 mm. Two stations of the net, at
-165.14 and 179.66 m, stand in it, 6.6 mm apart, and are its ends.
-"""
 
 if __name__ == "__main__":
     raise SystemExit(main())

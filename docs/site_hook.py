@@ -5,12 +5,33 @@ Tables that are made from the code are put at their marks.
 """
 
 import importlib.util
+import re
+from functools import partial
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 JOINED = ("CHANGELOG.md", "CONTRIBUTING.md")
-TABLES = ("catalogue", "hydrostatic_values", "named_parameters")
+TABLES = (
+    "catalogue",
+    "hydrostatic_values",
+    "named_parameters",
+    "commands",
+    "parameter_figures",
+    "thresholds",
+    "table5_values",
+)
+
+LATER = {
+    "api.md": 0.1,
+    "CHANGELOG.md": 0.2,
+    "benchmarks.md": 0.2,
+    "architecture.md": 0.3,
+    "errors.md": 0.4,
+    "cli.md": 0.5,
+}
+"""Pages that hold words of every subject: a search finds the page of a subject before them."""
 
 
 def on_config(config: Any) -> Any:
@@ -34,7 +55,10 @@ def on_files(files: Any, config: Any) -> Any:
 
 
 def with_tables(markdown: str, name: str) -> str:
-    """Give a page with the tables that belong at its mark; another page as it is."""
+    """Give a page with what is made for its marks; another page as it is.
+
+    A mark is a pattern: what its groups hold are the arguments of the script's `tables`.
+    """
     for each in TABLES:
         path = ROOT / "docs" / f"{each}.py"
         spec = importlib.util.spec_from_file_location(each, path)
@@ -43,13 +67,19 @@ def with_tables(markdown: str, name: str) -> str:
         script = importlib.util.module_from_spec(spec)
         if f'PAGE = "{name}"' in path.read_text("utf-8"):
             spec.loader.exec_module(script)
-            assert script.MARK in markdown, f"{name} has lost the mark of its tables"
-            markdown = markdown.replace(script.MARK, script.tables())
+            assert re.search(script.MARK, markdown), f"{name} has lost the mark of its tables"
+            markdown = re.sub(script.MARK, partial(_made, script), markdown)
     return markdown
 
 
+def _made(script: ModuleType, mark: re.Match[str]) -> str:
+    return str(script.tables(*mark.groups()))
+
+
 def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
-    """Point at them where they stand on the site, and put tables at their marks."""
+    """Point at them where they stand on the site, put tables at their marks, rank the page."""
+    if page.file.src_uri in LATER:
+        page.meta["search"] = {"boost": LATER[page.file.src_uri]}
     markdown = with_tables(markdown, page.file.src_uri)
     for name in JOINED:
         markdown = markdown.replace(f"](../{name})", f"]({name})")

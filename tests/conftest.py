@@ -19,6 +19,7 @@ from assoc_hull.hull.results import HullSurface
 from assoc_hull.hull.sources import Examples, examples
 from assoc_hull.io.slicing.net import SliceReport
 from tests.cases.dtc import read_dtc_with_report
+from tests.long_forms import LONG
 from tests.taken_back import taken_back
 from tests.twins import let_examples_give_twins, made_once, packed, twin
 
@@ -26,14 +27,13 @@ from tests.twins import let_examples_give_twins, made_once, packed, twin
 settings.register_profile(
     "default",
     deadline=None,
-    max_examples=50,
+    max_examples=50 if LONG else 15,
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.register_profile(
     "ci",
     settings.get_profile("default"),
     derandomize=True,
-    max_examples=15,
     print_blob=True,
 )
 settings.load_profile("ci" if os.environ.get("CI") else "default")

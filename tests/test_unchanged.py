@@ -15,11 +15,11 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.io.hull_file.database import SCHEMA
+from tests.long_forms import LONG, long_form
 from tests.unchanged import REPOSITORY, SHIPS, hash_of, main
 
 FILES = REPOSITORY / "tests" / "data" / "hull_files"
 RECORDED = json.loads((FILES / "fingerprints.json").read_text(encoding="utf-8"))
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 
 
 def recomputed(*arguments: str, seed: str) -> subprocess.CompletedProcess[str]:
@@ -48,7 +48,7 @@ def test_some_of_all_that_is_computed_is_as_it_was(ship: str, part: str) -> None
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-@pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")
+@long_form
 @pytest.mark.parametrize("ship", SHIPS)
 def test_all_that_is_computed_is_as_it_was(ship: str) -> None:
     """Every record, file and act of every ship gives what was recorded, to the last bit."""

@@ -204,6 +204,8 @@ def mesh_words(report: MeshFile) -> str:
         if report.volume is None
         else f"closed, {report.volume:.3f} m3",
     ]
+    if report.bodies:
+        rows.append(f"beside the hull, closed surfaces of their own: {', '.join(report.bodies)}")
     if report.chord is not None:
         rows.append(f"lines leave the edges of triangles by up to {1e3 * report.chord:.1f} mm")
     if report.left_out:
@@ -293,6 +295,10 @@ def add_export(commands: Commands) -> None:
         help="of a mesh: parts of each line between two crossings, even (default: 4)",
     )  # fmt: skip
     parser.add_argument(
+        "--leave-out", nargs="+", default=[], metavar="NAME",
+        help="of a mesh: lines, tunnels and bodies beside the net to do without",
+    )  # fmt: skip
+    parser.add_argument(
         "--accept", action="store_true",
         help="write a surface too whose halves cross or that leaves its residual limits",
     )  # fmt: skip
@@ -345,7 +351,7 @@ def _export(arguments: argparse.Namespace) -> int:
         with progress(f"writing {arguments.out}"):
             report = hull.export(
                 arguments.out, form, arguments.unit, scale=arguments.scale, half=arguments.half,
-                points=arguments.points, accept=arguments.accept,
+                points=arguments.points, accept=arguments.accept, leave_out=arguments.leave_out,
             )  # fmt: skip
     except NotSoundError as error:
         tell_faults(arguments, error)

@@ -131,7 +131,11 @@ def wrap_text(title: str, names: Iterable[str], indent: str = "  ") -> str:
     """Write a title and names after it, on as many lines as they need."""
     pad = indent + " " * 13
     text = ", ".join(name.replace(" ", "\xa0") for name in names)
-    lines = textwrap.wrap(text, 96, initial_indent=f"{indent}{title:12} ", subsequent_indent=pad)
+    # A minus sign is no hyphen to part a line at.
+    lines = textwrap.wrap(
+        text, 96, initial_indent=f"{indent}{title:12} ", subsequent_indent=pad,
+        break_on_hyphens=False,
+    )  # fmt: skip
     return "\n".join(lines).replace("\xa0", " ") if text else f"{indent}{title:12} -"
 
 
@@ -156,7 +160,19 @@ def hull_facts(hull: Hull) -> dict[str, Any]:
         "crossings": dict(Counter(each.role for each in hull.crossings.values())),
         "largest_gap": largest_gap(hull),
         "fingerprint": hull.fingerprint,
-    } | ({"tunnels": hull.state.tunnels} if hull.state.tunnels else {})
+    } | _beside(hull)
+
+
+def _beside(hull: Hull) -> dict[str, Any]:
+    """Give tunnels and bodies, those that there are; of bodies no points."""
+    bodies = [
+        {"name": each.name, "group": each.group, "low": each.points.min(axis=(0, 1)).tolist(),
+         "high": each.points.max(axis=(0, 1)).tolist(), "volume": each.volume, "both": each.both,
+         "sign": each.sign}
+        for each in hull.state.bodies
+    ]  # fmt: skip
+    found = {"tunnels": hull.state.tunnels, "bodies": bodies}
+    return {kind: held for kind, held in found.items() if held}
 
 
 def _sorts(hull: Hull) -> dict[str, int]:
@@ -182,6 +198,8 @@ def hull_words(hull: Hull, *, names: bool = False) -> str:
     ]
     if hull.tunnels:
         lines.insert(-1, wrap_text("tunnels", map(str, hull.tunnels.values())))
+    if hull.bodies:
+        lines.insert(-1, wrap_text("bodies", map(str, hull.bodies.values())))
     if names:
         lines += [wrap_text(name, group["lines"]) for name, group in facts["groups"].items()]
     return "\n".join(lines)

@@ -29,6 +29,9 @@ _WORDS = {
     "tunnel": "the tunnel {name}",
     "set_tunnel": "the new axis or radius of {name}",
     "remove_tunnel": "the removal of {name}",
+    "body": "the body {name}",
+    "set_body": "the new place or shape of {name}",
+    "remove_body": "the removal of {name}",
     "set_form": "the new values of {definition}",
 }
 """By modification, with names of its arguments."""

@@ -22,6 +22,8 @@ from assoc_hull.edit.lines import knuckle_lines as _knuckles
 from assoc_hull.edit.lines import remove_line as _lines
 from assoc_hull.edit.lines import shift_line as _shift
 from assoc_hull.edit.modifications import associations as _associate
+from assoc_hull.edit.modifications import attachments as _attachments
+from assoc_hull.edit.modifications import bodies as _bodies
 from assoc_hull.edit.modifications import curve_ends as _ends
 from assoc_hull.edit.modifications import definitions as _reattach
 from assoc_hull.edit.modifications import definitions as _set_form
@@ -57,9 +59,11 @@ from assoc_hull.errors import (
     UnknownNameError,
     WrongTypeError,
 )
+from assoc_hull.model.attached_body import AttachedBody
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
 from assoc_hull.model.tables import HullState
+from assoc_hull.model.tunnel_definition import TunnelDefinition
 
 if TYPE_CHECKING:
     from assoc_hull.edit.modifications.fair import Faired
@@ -852,11 +856,11 @@ class Edit:
 
     @recorded
     def rename(self, obj: object, name: str) -> None:
-        """Give a line, a point, a tunnel or the hull itself another name; keys stay.
+        """Give a line, a point, a tunnel, a body or the hull itself another name; keys stay.
 
         Parameters
         ----------
-        obj : Line, Point, Crossing, Curve, address, name of a tunnel, or the hull or None
+        obj : Line, Point, Crossing, Curve, address, name of a tunnel or body, the hull or None
             A curve is renamed with its line, whose only one it must be. Groups keep their
             names. None stands for the hull.
         name : str
@@ -865,8 +869,8 @@ class Edit:
         if obj is None or getattr(obj, "document", None) is self._held.document:
             _rename.rename_hull(self._transaction, name)
             return
-        if isinstance(obj, str) and _tunnels.is_tunnel(self._tables, obj):
-            _tunnels.rename_tunnel(self._transaction, obj, line_name(name))
+        if isinstance(obj, str) and _attachments.is_attachment(self._tables, obj):
+            _attachments.rename_attachment(self._transaction, obj, line_name(name))
             return
         _rename.rename(self._transaction, self._given.place(obj), name)
 
@@ -967,15 +971,13 @@ class Edit:
         ----------
         name : str
             What it is called.
-        x, z : float, m
-            Of its axis, from AP and from the base line.
-        radius : float, m
-            Of its inside.
+        x, z, radius : float, m
+            As `Hull.tunnel` takes them.
 
         Raises
         ------
         NameTakenError
-            A group, a line, a point or a tunnel has the name.
+            A group, a line, a point, a tunnel or a body has the name.
         OutOfRangeError
             x lies outside the ship.
         BadInputError
@@ -1002,7 +1004,7 @@ class Edit:
         self, name: str, *, x: float | None = None, z: float | None = None,
         radius: float | None = None,
     ) -> None:  # fmt: skip
-        """Give a tunnel another axis or radius, m; what is not given stays.
+        """Give a tunnel another axis or radius, as `tunnel` takes them; what is not given stays.
 
         Raises
         ------
@@ -1018,7 +1020,111 @@ class Edit:
     def remove_tunnel(self, name: str) -> None:
         """Take a tunnel away; `UnknownNameError` if there is none of that name."""
         with self._transaction.whole() as held:
-            _tunnels.remove_tunnel(held, name)
+            _attachments.remove(held, TunnelDefinition, name)
+
+    @recorded
+    def body(
+        self,
+        name: str,
+        group: str,
+        *,
+        x: tuple[float, float] | None = None,
+        y: tuple[float, float] | None = None,
+        z: tuple[float, float] | None = None,
+        sections: ArrayLike | None = None,
+        corners: ArrayLike | None = None,
+        both: bool = False,
+        sign: float = 1,
+    ) -> None:
+        """Put a body beside the net: a hatch, a deck house, a skeg, a sea chest.
+
+        It stands where it is put: no line moves, and hydrostatics do not see it. The lines plan
+        and closed meshes have it; a mapping and a variation carry its points.
+
+        Parameters
+        ----------
+        name : str
+            What it is called.
+        group : str
+            What it is one of, as ``"hatches"``, ``"deck houses"``, ``"boxes"``, ``"appendages"``.
+        x, y, z : (float, float) or None, m
+            A box between two places from AP, from the centre plane (port above 0) and from the
+            base line.
+        sections : (k, m, 3) or None, m
+            Instead of a box: two or more closed sections from aft forward, of as many points each.
+            The body is straight from each to the next.
+        corners : (n,) or None
+            Numbers of points of a section, from 0, at which an edge runs along; all if None.
+        both : bool
+            Its mirror image stands on the other side.
+        sign : {1, -1}
+            1 stands on the hull; -1 is taken from it, as a sea chest is.
+
+        Raises
+        ------
+        NameTakenError
+            A group, a line, a point, a tunnel or a body has the name.
+        BadInputError
+            A name that is none, no shape, sections that run aft or enclose nothing, a body on
+            both sides that crosses the centre plane.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("hatch") as edit:
+        ...     edit.body("hatch 1", "hatches", x=(40, 52), y=(-3, 3), z=(10, 11.2))
+        >>> print(hull["hatch 1"])
+        hatch 1 (hatches): x 40 to 52, y -3 to 3, z 10 to 11.2 m, 86.4 m3
+        """
+        shape = _bodies.BodyShape(sections, x, y, z, corners, both, sign)
+        with self._transaction.whole() as held:
+            _bodies.add_body(held, line_name(name), group, shape)
+
+    @recorded
+    def set_body(
+        self,
+        name: str,
+        *,
+        by: ArrayLike | None = None,
+        group: str | None = None,
+        x: tuple[float, float] | None = None,
+        y: tuple[float, float] | None = None,
+        z: tuple[float, float] | None = None,
+        sections: ArrayLike | None = None,
+        corners: ArrayLike | None = None,
+        both: bool | None = None,
+        sign: float | None = None,
+    ) -> None:
+        """Move a body, or give it another shape or group; what is not given stays.
+
+        Parameters
+        ----------
+        name : str
+            Of the body.
+        by : (3,) or None, m
+            How far it is to go.
+        x, y, z : (float, float) or None, m
+            From where to where it is to reach; it is stretched along these axes.
+        group, sections, corners, both, sign
+            As `body` takes them.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no body of that name.
+        BadInputError
+            As for `body`; or nothing is given, or both a movement and a new place.
+        """
+        shape = _bodies.BodyShape(sections, x, y, z, corners, both, sign)
+        with self._transaction.whole() as held:
+            _bodies.set_body(held, name, by, group, shape)
+
+    @recorded
+    def remove_body(self, name: str) -> None:
+        """Take a body away; `UnknownNameError` if there is none of that name."""
+        with self._transaction.whole() as held:
+            _attachments.remove(held, AttachedBody, name)
 
     @recorded
     def transform(

@@ -6,8 +6,9 @@ The command `assoc-hull export` calls the same, so that both write the same file
 from __future__ import annotations
 
 import os
+from collections.abc import Collection
 
-from assoc_hull.arguments import flag
+from assoc_hull.arguments import all_of, flag
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull.results import surface_of_hull
 from assoc_hull.io.cad.write import CAD_FORMS, CadReport
@@ -34,12 +35,15 @@ def export_file(
     half: bool = False,
     points: int | None = None,
     accept: bool = False,
+    leave_out: Collection[str] = (),
 ) -> ExportReport | CadReport | MeshFile:
     """Write a hull in a form of lines, surfaces or meshes; arguments as of `Hull.export`."""
     forms, endings = (*FORMS, *SURFACE_FORMS), {**ENDINGS, **SURFACE_ENDINGS}
     chosen = form_by_ending(path, form, forms, endings, "in export")
     alone, state = flag(half, "half", "in export"), state_of(hull, "in export")
     _refuse("points", "meshes", given=points is not None and chosen not in MESH_FORMS)
+    names = all_of(leave_out, str, "leave_out", "in export")
+    _refuse("leave_out", "meshes", given=bool(names) and chosen not in MESH_FORMS)
     taken = flag(accept, "accept", "in export")
     _refuse("accept", "surfaces", given=taken and chosen not in (*CAD_FORMS, "3dm"))
     if chosen in FORMS:
@@ -48,7 +52,8 @@ def export_file(
     _refuse("scale", "a lines plan", given=scale is not None)
     if chosen in MESH_FORMS:
         # The mesh comes from the lines: it needs no surface, which takes longer.
-        mesh = closed_mesh(hull, half=alone, points=_POINTS if points is None else points)
+        parts = _POINTS if points is None else points
+        mesh = closed_mesh(hull, half=alone, points=parts, leave_out=names)
         return write_mesh(mesh, path, chosen, unit=unit, name=state.particulars.name or "hull")
     return surface_of_hull(hull).write(path, chosen, unit=unit, half=alone, accept=taken)
 

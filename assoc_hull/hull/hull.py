@@ -40,6 +40,7 @@ from assoc_hull.edit.session import Edit, join_edit, open_edit
 from assoc_hull.edit.write_lock import PATIENCE
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError, WrongTypeError
 from assoc_hull.model.address import AddressBook
+from assoc_hull.model.attachments import attachment_named
 from assoc_hull.model.kinds import FAMILIES, OWN
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.named_mapping import NamedMapping
@@ -48,7 +49,7 @@ from assoc_hull.model.tables import Association, HullState, Particulars, copy_st
 from assoc_hull.tolerance import Tolerances
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Collection, Iterable
     from os import PathLike
     from typing import Any, Literal
 
@@ -119,6 +120,8 @@ if TYPE_CHECKING:
     from assoc_hull.variation.request import Planes, Stations
     from assoc_hull.variation.sensitivities import Sensitivities
     from assoc_hull.variation.shifts.shift_terms import Fade, ShiftShape, Terminals
+
+    Named = Group | Line | Curve | Point | Tunnel | AttachedBody
 
 __all__ = ["Hull"]
 
@@ -556,9 +559,23 @@ class Hull:
         self.document.go(name)
 
     def diff(self, before: str, after: str | None = None) -> Comparison:
-        """Compare two checkpoints or branches, or one with the present state."""
+        """Compare two checkpoints or branches, or one with the present state.
+
+        `assoc_hull.variation.compare` compares two hulls.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no checkpoint or branch of a name.
+        WrongTypeError
+            A hull was given.
+        """
         from assoc_hull.edit.explain.compare_states import compare_labelled
 
+        if any(isinstance(each, Hull) for each in (before, after)):
+            what = "diff compares states of one hull by their names; a hull was given"
+            remedy = "call ah.variation.compare(hull, other) for two hulls"
+            raise WrongTypeError(what, "in diff", remedy)
         return compare_labelled(self.document, before, after)
 
     def replay(self, other: Hull, *, skip: bool = False) -> tuple[Replayed, ...]:
@@ -568,12 +585,12 @@ class Hull:
         steps = instance(other, Hull, "other", "in replay").document.history
         return replay(self.document, steps, skip=flag(skip, "skip", "in replay"))
 
-    def __getitem__(self, address: str) -> Group | Line | Curve | Point | Tunnel:
-        """Give the line, point, curve, group or tunnel that an address names, as `find` does."""
+    def __getitem__(self, address: str) -> Named:
+        """Give what an address names: a line, point, curve, group, tunnel or body; as `find`."""
         return self.find(address)
 
     def __contains__(self, address: object) -> bool:
-        """Whether an address names a line, point, curve, group or tunnel of the hull."""
+        """Whether an address names a line, point, curve, group, tunnel or body of the hull."""
         try:
             if isinstance(address, str) and not address.strip():
                 return False  # nothing is named so
@@ -585,11 +602,20 @@ class Hull:
     # A hull is no sequence: without this, Python would ask it for hull[0], hull[1], ...
     __iter__ = None
 
-    def find(self, address: str) -> Group | Line | Curve | Point | Tunnel:
-        """Give what an address names; see `assoc_hull.model.address`. Tunnels have a name only."""
-        if self.state.tunnels and address in self.tunnels:
-            return self.tunnels[address]
-        return handle(self.state, address)
+    def find(self, address: str) -> Named:
+        """Give what an address names; see `assoc_hull.model.address`.
+
+        Tunnels and bodies have a name only.
+        """
+        try:
+            return handle(self.state, address)
+        except WrongTypeError:
+            # What no line or point is called may stand beside the net.
+            beside = attachment_named(self.state, text(address, "the address", "in a look-up"))
+            if beside is None:
+                raise
+            name = beside[1].name
+            return self.tunnels[name] if name in self.tunnels else self.bodies[name]
 
     @property
     def dirty(self) -> Dirty:
@@ -781,10 +807,8 @@ class Hull:
         ----------
         name : str
             What it is called.
-        x, z : float, m
-            Of its axis, from AP and from the base line.
-        radius : float, m
-            Of its inside.
+        x, z, radius : float, m
+            Of its axis, from AP and from the base line; of its inside.
 
         Returns
         -------
@@ -2649,14 +2673,15 @@ features
         )  # fmt: skip
 
     def mesh(
-        self, *, half: bool = False, points: int = 4, leave_out: Sequence[str] = ()
+        self, *, half: bool = False, points: int = 4, leave_out: Collection[str] = ()
     ) -> ClosedMesh:
         """Make a closed mesh on the lines of a hull: for panels, printing, a check of volumes.
 
         The lines part the hull into cells; these are filled with elements that fit together along
         every edge. Deck and transom are covered, whatever the particulars say of the deck, and the
         half is mirrored. The mesh comes from the lines alone: it shares nothing with
-        `Hull.hydrostatics` but these. Tunnels that the hull holds go through it, each a group.
+        `Hull.hydrostatics` but these. Tunnels that the hull holds go through it, each a group;
+        bodies beside the net stand beside it, each a group that is closed by itself.
 
         Parameters
         ----------
@@ -2664,8 +2689,8 @@ features
             The port half only, open in the centre plane.
         points : int
             Into how many parts each piece of a line between two crossings is cut: even, 2 to 64.
-        leave_out : sequence of str
-            Names of lines and tunnels to do without.
+        leave_out : collection of str
+            Names of lines, tunnels and bodies to do without; `bodies` itself for all of these.
 
         Returns
         -------
@@ -2677,7 +2702,7 @@ features
         BadInputError
             A curve of the hull has failed, or an option is out of its range.
         UnknownNameError
-            A line to leave out does not exist.
+            What is to be left out does not exist.
         OpenNetError
             The lines do not part the hull into cells; those at fault are named.
         OpenMeshError
@@ -2878,6 +2903,7 @@ features
         half: bool = False,
         points: int | None = None,
         accept: bool = False,
+        leave_out: Collection[str] = (),
     ) -> Any:
         """Write offsets, lines, the surface or the closed mesh for other programs.
 
@@ -2897,6 +2923,8 @@ features
             Of a mesh: into how many parts each piece of a line between two crossings is cut.
         accept : bool
             Of surfaces: also one that crosses the centre plane or leaves its residual limits.
+        leave_out : collection of str
+            Of a mesh: names of lines, tunnels and bodies to do without.
 
         Returns
         -------
@@ -2915,8 +2943,9 @@ features
 
         self.document.require_ended("export")
         return export_file(
-            self, path, form, unit, scale=scale, half=half, points=points, accept=accept
-        )
+            self, path, form, unit, scale=scale, half=half, points=points, accept=accept,
+            leave_out=leave_out,
+        )  # fmt: skip
 
     def report(
         self,

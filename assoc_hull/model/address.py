@@ -30,6 +30,7 @@ import numpy as np
 from assoc_hull.arguments import plain_name, shown_name, word
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import IntArray
+from assoc_hull.model.attachments import attachment_named
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.tables import HullState
 
@@ -182,10 +183,12 @@ class AddressBook:
         )  # fmt: skip
         found = self.state.derived(("looked up", plain), depends_on, lambda: self._lookup(plain))
         if found is None:
-            if any(plain_name(each.name) == plain_name(plain) for each in self.state.tunnels):
+            if beside := attachment_named(self.state, plain):
+                sort = beside[0].word
                 raise WrongTypeError(
-                    f"{plain!r} is a tunnel, no line, curve, point or group", "in a look-up",
-                    "look it up in hull.tunnels; edit.set_tunnel and edit.remove_tunnel change it",
+                    f"{plain!r} is a {sort}, no line, curve, point or group", "in a look-up",
+                    f"look it up in hull.{beside[0].column}; edit.set_{sort} and "
+                    f"edit.remove_{sort} change it",
                 )  # fmt: skip
             raise UnknownNameError("object", shown_name(text), tuple(self._known(text)))
         return found

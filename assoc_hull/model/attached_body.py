@@ -6,17 +6,18 @@ them; they stand where they were put, and only a mapping of space carries them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import attrs
 import numpy as np
 
 from assoc_hull.arguments import checked, shown, word
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
-__all__ = ["AttachedBody", "bodies_in_order"]
+__all__ = ["AttachedBody"]
 
 Corner = tuple[float, float, float]
 
@@ -43,7 +44,7 @@ def _numbers(given: Any) -> tuple[int, ...]:
 
 
 @attrs.frozen
-class AttachedBody:
+class AttachedBody(ShownAsText):
     """A body between closed sections, straight along the ship from each to the next.
 
     Attributes
@@ -71,7 +72,7 @@ class AttachedBody:
 
     name: str = attrs.field(validator=checked(word, _WHERE))
     group: str = attrs.field(validator=checked(word, _WHERE))
-    sections: tuple[tuple[Corner, ...], ...] = attrs.field(converter=_rings)
+    sections: tuple[tuple[Corner, ...], ...] = attrs.field(converter=_rings, repr=False)
     corners: tuple[int, ...] = attrs.field(converter=_numbers)
     both: bool = attrs.field(converter=bool)
     sign: int = attrs.field(converter=int)
@@ -91,6 +92,15 @@ class AttachedBody:
         return np.array(self.sections)
 
     @property
+    def carriers(self) -> FloatArray:
+        """Its points, (k m, 3), m: the places that a mapping of space carries."""
+        return self.points.reshape(-1, 3)
+
+    def carried(self, places: FloatArray) -> AttachedBody:
+        """Give it where a mapping took these places."""
+        return attrs.evolve(self, sections=places.reshape(self.points.shape))
+
+    @property
     def outlines(self) -> Mapping[str, FloatArray]:
         """Its lines by name, (n, 3), m each: both ends, closed, and the edges along."""
         points = self.points
@@ -104,9 +114,21 @@ class AttachedBody:
     @property
     def volume(self) -> float:
         """What its faces enclose, m3, of both sides, without sign."""
+        return abs(self.flux) * (2 if self.both else 1)
+
+    @property
+    def flux(self) -> float:
+        """What its faces enclose as they are turned, m3, of one side; above 0 if they are right."""
         corner = self.points.reshape(-1, 3)[self.triangles]
-        flux = (corner[:, 0] * np.cross(corner[:, 1], corner[:, 2])).sum() / 6.0
-        return float(abs(flux)) * (2 if self.both else 1)
+        return float((corner[:, 0] * np.cross(corner[:, 1], corner[:, 2])).sum()) / 6.0
+
+    def __str__(self) -> str:
+        low, high = (each(axis=(0, 1)).tolist() for each in (self.points.min, self.points.max))
+        spans = zip("xyz", low, high, strict=True)
+        reach = ", ".join(f"{axis} {a:.6g} to {b:.6g}" for axis, a, b in spans)
+        side = " on both sides" if self.both else ""
+        taken = ", taken from the hull" if self.sign < 0 else ""
+        return f"{self.name} ({self.group}): {reach} m{side}, {self.volume:.6g} m3{taken}"
 
     @property
     def triangles(self) -> IntArray:
@@ -158,8 +180,3 @@ def _turn(p: FloatArray, q: FloatArray, r: FloatArray) -> FloatArray:
     """Give twice the signed area of triangles."""
     u, v = q - p, r - p
     return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
-
-
-def bodies_in_order(bodies: Iterable[AttachedBody]) -> tuple[AttachedBody, ...]:
-    """Give bodies by name: the order in which they were made plays no part in a hull."""
-    return tuple(sorted(bodies, key=lambda each: each.name))

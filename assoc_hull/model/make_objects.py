@@ -14,11 +14,11 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import plain_name
 from assoc_hull.errors import NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, freeze
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import ValueColumn
+from assoc_hull.model.attachments import attachment_named
 from assoc_hull.model.births import Pair
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
@@ -136,8 +136,8 @@ class Maker:
         taken = [table.name[i] for i in self.state.live("lines") if table.group[i] == group]
         if name in taken:
             raise NameTakenError(f"line of {title}", name)
-        if any(plain_name(each.name) == plain_name(name) for each in self.state.tunnels):
-            raise NameTakenError("tunnel", name)
+        if beside := attachment_named(self.state, name):
+            raise NameTakenError(beside[0].word, name)
         number = int(self.journal.grow(table, 1)[0])
         place = name if plane is None or boundary >= 0 else f"{plane[1]:.6f}"
         self.journal.set(

@@ -6,13 +6,13 @@ follows every edit: `assoc_hull.analysis.hydrostatics.tunnel` measures it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import attrs
+import numpy as np
 
 from assoc_hull.arguments import checked, number, plain, positive, word
+from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["TunnelDefinition", "tunnels_in_order"]
+__all__ = ["TunnelDefinition"]
 
 _WHERE = "in a tunnel"
 
@@ -25,10 +25,8 @@ class TunnelDefinition:
     ----------
     name : str
         What it is called.
-    x, z : float, m
-        Of its axis, from AP and from the base line.
-    radius : float, m
-        Of its inside.
+    x, z, radius : float, m
+        As `Hull.tunnel` takes them.
 
     Examples
     --------
@@ -42,7 +40,15 @@ class TunnelDefinition:
     z: float = attrs.field(converter=plain, validator=checked(number, _WHERE))
     radius: float = attrs.field(converter=plain, validator=checked(positive, _WHERE))
 
+    @property
+    def carriers(self) -> FloatArray:
+        """The middle of its axis, (1, 3), m: the place that a mapping of space carries."""
+        return np.array([[self.x, 0.0, self.z]])
 
-def tunnels_in_order(tunnels: Iterable[TunnelDefinition]) -> tuple[TunnelDefinition, ...]:
-    """Give tunnels by name: the order in which they were made plays no part in a hull."""
-    return tuple(sorted(tunnels, key=lambda each: each.name))
+    def carried(self, places: FloatArray) -> TunnelDefinition:
+        """Give it where a mapping took that place; it stays athwartships, its radius as it is."""
+        x, _, z = (places[0] + 0.0).tolist()
+        return attrs.evolve(self, x=x, z=z)
+
+    def __str__(self) -> str:
+        return f"{2.0 * self.radius:.6g} m across at x {self.x:.6g}, z {self.z:.6g} m"

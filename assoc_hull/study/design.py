@@ -17,7 +17,7 @@ from assoc_hull.study.sampling import Sample
 from assoc_hull.variation.fields.layers import Layer
 from assoc_hull.variation.parameters.catalogue import NAMES
 from assoc_hull.variation.parameters.field_layout import Layout
-from assoc_hull.variation.request import TargetRequest, VariationRequest
+from assoc_hull.variation.request import TargetRequest, VariationRequest, rank_of_output
 
 __all__ = ["OUTPUTS", "StudyDesign"]
 
@@ -109,6 +109,8 @@ class StudyDesign:
         ask = _ask(layers, layout)
         raw = {each.name: each for each in ask.layers}
         aims, targets = _columns(_by_name(reach, "reach"), "reach")
+        turn = sorted(range(len(aims)), key=lambda i: rank_of_output(aims[i]))
+        aims, targets = tuple(aims[i] for i in turn), [targets[i] for i in turn]  # as `vary` has it
         sought = _sought(free, bounds, aims, raw)
         raw |= {each.name: each for each in sought.free if not isinstance(each, str)}
         given, values = _columns(_by_name(set, "set"), "set", (*NAMES, *raw))

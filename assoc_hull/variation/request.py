@@ -21,6 +21,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.form.catalogue import CATALOGUE as FORM_PARAMETERS
+from assoc_hull.analysis.hydrostatics.record import FIELDS
 from assoc_hull.arguments import (
     choice,
     file_path,
@@ -48,6 +49,7 @@ __all__ = [
     "TargetRequest",
     "VariationRequest",
     "is_layer",
+    "rank_of_output",
     "read_script",
     "request_from_data",
     "script_of",
@@ -62,6 +64,8 @@ __all__ = [
 
 _WHERE = "in vary"
 _FORM = 'give names of parameters, layers, or {"name": ..., "fields": [...]}'
+_OUTPUTS = {name: place for place, name in enumerate((*FIELDS, *FORM_PARAMETERS))}
+"""The places of outputs that have names of their own."""
 
 
 @attrs.frozen(eq=False)
@@ -71,9 +75,11 @@ class TargetRequest:
     Attributes
     ----------
     targets : mapping of str to float
-        Values of outputs by name, in their units.
+        Values of outputs by name, in their units: fields of hydrostatics in the order of the
+        record, form parameters in that of their catalogue, then others by name.
     free : tuple of str or Layer
-        Named parameters, and layers whose strength is free.
+        Named parameters in the order of their catalogue, then layers whose strength is free, by
+        name.
     bounds : mapping of str to (float, float)
         Least and greatest values by the name of what is free: m, deg, or factors on layers.
     exact : bool
@@ -114,9 +120,12 @@ class TargetRequest:
                 f"nothing is free to reach {', '.join(targets)}", _WHERE, "give free=[names]"
             )
         given = list(free) if isinstance(free, Sequence) and not isinstance(free, str) else [free]
+        # Sums in another order have other last bits: the order asked in must not matter.
+        turn = sorted(range(len(made)), key=lambda i: _rank_of_free(made[i]))
         return cls(
-            MappingProxyType(targets), made, MappingProxyType(_bounds(limits, made)), whole,
-            None if any(is_layer(each) for each in given) else tuple(given),
+            MappingProxyType({name: targets[name] for name in sorted(targets, key=rank_of_output)}),
+            tuple(made[i] for i in turn), MappingProxyType(_bounds(limits, made)), whole,
+            None if any(is_layer(each) for each in given) else tuple(given[i] for i in turn),
         )  # fmt: skip
 
     @property
@@ -191,6 +200,16 @@ def _free(given: object) -> tuple[str | Layer, ...]:
         if names.count(name) > 1:
             raise BadInputError(f"'{name}' is free twice", _WHERE, "name it once")
     return made
+
+
+def _rank_of_free(given: str | Layer) -> tuple[int, str]:
+    """Give the place of a parameter, or of a layer, among all that may be free."""
+    return (NAMES.index(given), "") if isinstance(given, str) else (len(NAMES), given.name)
+
+
+def rank_of_output(name: str) -> tuple[int, str]:
+    """Give the place of an output among all that there are."""
+    return _OUTPUTS.get(name, len(_OUTPUTS)), name
 
 
 def _one(given: object) -> str | Layer:

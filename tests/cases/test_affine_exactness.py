@@ -6,8 +6,6 @@ a similarity gives the same splines, a single ratio others within the tolerance 
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
 
@@ -23,8 +21,8 @@ from benchmarks.affine_exactness import (
     scaled,
 )
 from benchmarks.affine_image import affine_image
+from tests.long_forms import LONG
 
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 SHIPS = ("wigley", "series60_70", "bulk_carrier", *(("dtc",) if LONG else ()))
 
 

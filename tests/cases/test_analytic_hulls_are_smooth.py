@@ -1,7 +1,5 @@
 """On smooth analytic hulls no feature is found: no corner, no straight run, no arc."""
 
-import os
-
 import numpy as np
 import pytest
 
@@ -15,8 +13,9 @@ from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.io.slicing.features import plane_columns
 from assoc_hull.io.slicing.mesh_lines import slice_mesh
 from tests import meshes
+from tests.long_forms import LONG
 
-SEEDS = 200 if os.environ.get("ASSOC_HULL_LONG") == "1" else 51
+SEEDS = 200 if LONG else 51
 """Each of 17 lines comes three times."""
 NOISE = 1e-3
 

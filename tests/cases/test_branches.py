@@ -7,15 +7,13 @@ Steps of 1 cm are for long runs.
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
 
 import assoc_hull as ah
 from tests.cases.valley import LENGTH, breadth_at, valley_hull
+from tests.long_forms import LONG
 
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 LOW, LAST, HIGH = 2.2, 2.7, 3.3
 """Half-breadths (m): before the first two branches meet, past the last, and far past it."""
 LEVELS = tuple(float(z) for z in np.linspace(0.0, 8.0, 9)[2:-1])

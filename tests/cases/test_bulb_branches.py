@@ -4,12 +4,11 @@ What is true follows from the function of the hull (`true_branches`). The lines 
 may pass the true ones by the tolerance of adoption; so where the truth has an event within
 that distance of a place, the line is shifted there but nothing is compared until the next.
 Steps of 2 cm are taken by the buttock, where events are closest together; with
-``ASSOC_HULL_LONG=1`` steps of 1 cm by both, from before the neck.
+`make test-long` steps of 1 cm by both, from before the neck.
 """
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import attrs
@@ -22,8 +21,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.tolerance import Tolerances
 from tests.cases.bulb import breadth_at, bulb_hull, contour
 from tests.cases.true_branches import Branch, branches_of, neck, on_ring
-
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
+from tests.long_forms import LONG
 
 CLOSE = Tolerances().adoption
 """Events nearer (m) to a place than this may have happened on the net or not."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import threading
 
 import numpy as np
@@ -11,9 +10,9 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.drag import Drag
 from assoc_hull.model.address import address
+from tests.long_forms import LONG
 from tests.twins import packed, twin
 
-LONG = "ASSOC_HULL_LONG" in os.environ
 HULLS = {
     "wigley": lambda: ah.examples.wigley(),
     "series60": lambda: ah.examples.series60(0.70),

@@ -3,13 +3,12 @@
 The truth is the path of every meeting in steps of 1 mm (`net_branches`), along which it can
 be followed without doubt. Shifts of 1 and 50 cm must attach each crossing to the branch that this
 path leads to. The steps of 50 cm go along the whole ranges, those of 1 cm where events at the bulb
-are closest together; ``ASSOC_HULL_LONG=1`` takes all along the whole ranges, in steps of 10 cm as
+are closest together; `make test-long` takes all along the whole ranges, in steps of 10 cm as
 well, and the shifts also in steps of 1 mm round every event, in a quarter of an hour.
 """
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from functools import cache
 
@@ -19,9 +18,8 @@ import assoc_hull as ah
 from tests.cases.net_branches import branches_of_net
 from tests.cases.net_watch import AXIS, CLOSE, NetWatch, events
 from tests.cases.true_branches import Branch
+from tests.long_forms import LONG
 from tests.taken_back import taken_back
-
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 
 RANGES = {
     "bulb": ("waterlines", 12.003, 15.203),
@@ -32,11 +30,10 @@ RANGES = {
 
 WITHIN = {
     (0.5, "bulb"): RANGES["bulb"],
-    (0.5, "bossing"): RANGES["bossing"],
     (0.5, "buttock"): RANGES["buttock"],
     (0.01, "bulb"): ("waterlines", 14.093, 14.253),
 }
-"""For each step and place: the range on its own; of the bulb some of its 12 events, the closest."""
+"""Tried always, by step and place: the range; of the bulb's 12 events some, the closest."""
 
 STEPS = [(step, where) for step in (0.5, 0.1, 0.01) for where in RANGES] if LONG else list(WITHIN)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 
 import attrs
@@ -11,9 +10,9 @@ import pytest
 
 import assoc_hull as ah
 from tests.cases import places
+from tests.long_forms import LONG
 from tests.properties.test_i01_consistency import assert_consistent
 
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 EVERY = 1 if LONG else 24
 PLACES = 48 if LONG else 24
 SEED = 1

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +12,7 @@ from assoc_hull.model.definition.records import definition
 from assoc_hull.model.node import Node
 from tests.cases.walk import walk
 from tests.independent import closure, relofted, snapshot
+from tests.long_forms import LONG
 from tests.properties.test_i01_consistency import assert_consistent
 from tests.properties.test_i02_locality import assert_local
 from tests.properties.test_i03_minimality import passes, quiet
@@ -27,8 +27,6 @@ from tests.properties.test_i09_topology import (
 )
 from tests.properties.test_i10_both_directions import assert_both_directions
 from tests.properties.test_rebuild import FINGERPRINTS, run_script
-
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 
 STEPS = 12
 """Accepted edits in each walk; every walk has a seed of its own."""

@@ -1,12 +1,11 @@
 """Foreign files of hulls come in right, or say what is wrong: a table of files and options.
 
-The ordinary suite tries the cheapest files; with ASSOC_HULL_LONG=1 all of them, and the table in
+The ordinary suite tries the cheapest files; with `make test-long` all of them, and the table in
 the documentation is compared with what was found.
 """
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,8 +13,8 @@ import numpy as np
 import pytest
 
 from tests.foreign_hulls import CORPUS, QUICK, Foreign, Row, row_of, uses_of
+from tests.long_forms import LONG, long_form
 
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 TRIED = tuple(case for case in CORPUS if LONG or case.name in QUICK)
 SOUND = tuple(case for case in TRIED if case.sound)
 
@@ -88,7 +87,7 @@ def test_clean_files_raise_few_suspicions(rows: Rows) -> None:
     assert np.median(counts) <= 1, counts
 
 
-@pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")
+@long_form
 def test_most_files_come_in_right_with_nothing_said(rows: Rows) -> None:
     """At least nine of all files."""
     right = [case.name for case in SOUND if rows(case).defaults.word == "right"]

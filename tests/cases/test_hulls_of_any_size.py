@@ -1,6 +1,5 @@
 """A short hull is taken in as the same hull of 100 m is, whatever the unit of its file."""
 
-import os
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +11,9 @@ from assoc_hull.hull import Hull
 from assoc_hull.io.importing.import_hull import ImportReport
 from assoc_hull.model.tables import HullState
 from assoc_hull.tolerance import Tolerances
+from tests.long_forms import LONG, long_form
 from tests.scaled_hulls import LENGTH, scaled_hull
 
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 SHORT_ONES = ["Series 60 .60, table", "Wigley, mesh"]
 ALL = [
     *SHORT_ONES, "Wigley, surface", "yacht, mesh", "Series 60 .70, lines",
@@ -80,7 +79,7 @@ def test_powers_of_two_change_no_bit(name: str, tmp_path: Path) -> None:
     check_bits(name, tmp_path)
 
 
-@pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")
+@long_form
 @pytest.mark.parametrize("name", [each for each in ALL if "table" not in each])
 def test_files_in_feet_and_inches_are_the_same_hull(name: str, tmp_path: Path) -> None:
     """The same file in inches and in feet gives the same hull."""

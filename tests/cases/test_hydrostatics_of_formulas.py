@@ -5,7 +5,6 @@ Truth are the bodies of `tests.exact_hulls` below the same planes.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from itertools import pairwise
 
@@ -22,9 +21,9 @@ from assoc_hull.model.tables import HullState
 from assoc_hull.shipped.wigley import wigley as shipped_wigley
 from tests import exact_hulls
 from tests.floating_bodies import StripBody, head
+from tests.long_forms import LONG
 from tests.nets import ellipsoid_net, wigley_net
 
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 SIZES = ((21, 11), (41, 21), (81, 41))
 BOUNDS = (2e-4, 3e-5, 4e-6)
 FALL = 6.0

@@ -1,17 +1,14 @@
 """A file gives the same hull to the last bit, however many cores a machine has."""
 
-import os
 from pathlib import Path
 
-import pytest
 from threadpoolctl import threadpool_limits
 
 import assoc_hull as ah
+from tests.long_forms import long_form
 
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 
-
-@pytest.mark.skipif(not LONG, reason="two meshes are read: ASSOC_HULL_LONG=1")
+@long_form
 def test_a_mesh_gives_the_same_bits_with_one_thread_of_linear_algebra_and_with_two(
     data_folder: Path,
 ) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 
 import numpy as np
@@ -13,8 +12,8 @@ from assoc_hull.analysis.hydrostatics.record import Hydrostatics
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import Particulars
+from tests.long_forms import LONG
 
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 SPACINGS = [(0.5, 19.5, 0.5), (1.0, 19.0, 1.0)]
 """First and last station, and the step between; of both the wider leaves more of the ends open."""
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
 
@@ -11,11 +9,12 @@ import assoc_hull as ah
 from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.model.objects import Point
 from tests.cases import places
+from tests.long_forms import LONG
 
 PLACES = 24
 STRICT = 8
 SEED = 1
-SEEDS = (1, 2, 3) if os.environ.get("ASSOC_HULL_LONG") == "1" else (1,)
+SEEDS = (1, 2, 3) if LONG else (1,)
 
 
 def _pairs(name: str) -> tuple[tuple[str, str], ...]:

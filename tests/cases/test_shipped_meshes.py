@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
 
 import assoc_hull as ah
+from tests.long_forms import long_form
 
-pytestmark = pytest.mark.skipif("ASSOC_HULL_LONG" not in os.environ, reason="takes four minutes")
+pytestmark = long_form
 
 HULLS = (
     "bulk_carrier_180m", "bulk_carrier_207k", "container_ship_225m", "plain_ship",

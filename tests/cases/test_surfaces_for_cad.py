@@ -1,11 +1,10 @@
 """The surfaces of ships as CAD programs get them: whole hulls of one shell, to the micrometre.
 
-Series 60 always; the DTC, with bulb and stern bulb, and the carrier with ``ASSOC_HULL_LONG=1``.
+Series 60 always; the DTC, with bulb and stern bulb, and the carrier with `make test-long`.
 """
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -21,8 +20,8 @@ from assoc_hull.io.cad.faces import sew_surfaces
 from assoc_hull.io.cad.kernel import quiet_kernel
 from assoc_hull.io.cad.write import CadReport, both_sides, cad_bytes, closed_solid
 from assoc_hull.io.slicing.surface_lines import faces_of_file
+from tests.long_forms import LONG
 
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 SHIPS = {
     # Edges that join two faces, and free ones: deck edge, rim of the transom.
     "series60_70": (7, 4),

@@ -3,7 +3,6 @@
 Distances are those of a ship of 300 m: they scale with the length.
 """
 
-import os
 from collections.abc import Callable
 
 import numpy as np
@@ -13,10 +12,10 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
 from assoc_hull.hull.results import HullSurface
 from assoc_hull.surface.blocks.fitted_surface import FittedBlock
+from tests.long_forms import LONG
 
 BODY, ENDS, MEDIAN = 8.0, 15.0, 1.5  # mm
 SHIPS = ["series60_70", "bulk_carrier", "dtc"]
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 
 Fitted = Callable[[Hull], HullSurface]
 

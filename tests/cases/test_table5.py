@@ -6,6 +6,8 @@ formulas. What is measured on a hull and yet follows from the inputs is computed
 
 from __future__ import annotations
 
+import csv
+import sys
 from collections import Counter
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -202,11 +204,10 @@ def test_the_contradictions_are_far_beyond_rounding() -> None:
 # The page.
 
 
-def row(symbol: str) -> str:
-    """A value's row of the page."""
+def row(symbol: str) -> list[str]:
+    """A value's row of the page's table."""
     each = PRINTED[symbol]
-    cells = (f"`{symbol}`", each.text, each.kind, _told(symbol), each.why)
-    return f"| {' | '.join(cells)} |"
+    return [symbol, each.text, each.kind, _told(symbol), each.why]
 
 
 def _told(symbol: str) -> str:
@@ -225,11 +226,12 @@ def test_the_page_shows_these_classes() -> None:
 
     `python -m tests.cases.test_table5` prints the rows.
     """
+    with PAGE.with_suffix(".csv").open(encoding="utf-8", newline="") as file:
+        assert list(csv.reader(file))[1:] == [row(each) for each in PRINTED]
     lines = PAGE.read_text("utf-8").splitlines()
-    assert [line for line in lines if line.startswith("| `")] == [row(each) for each in PRINTED]
     counts = [line.split("|")[1:3] for line in lines if line.startswith("| *")]
     assert {name.strip(" *"): int(count) for name, count in counts} == COUNTS
 
 
 if __name__ == "__main__":
-    print("\n".join(map(row, PRINTED)))
+    csv.writer(sys.stdout, lineterminator="\n").writerows(map(row, PRINTED))

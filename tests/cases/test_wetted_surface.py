@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 
 import numpy as np
@@ -13,11 +12,12 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh
+from tests.long_forms import LONG
 from tests.raked_stern import DEPTH, FOOT, half_breadth, keel, raked_ship, shell
 from tests.shell_area import triangles_below
 from tests.wetted_surfaces import FEW, NEAR, SHIPS
 
-NAMES = tuple(SHIPS) if os.environ.get("ASSOC_HULL_LONG") else FEW
+NAMES = tuple(SHIPS) if LONG else FEW
 """All ships of the table where time is given, else a formula and a ship with bulb and transom."""
 
 

@@ -6,7 +6,6 @@ program, and some that are new each time.
 
 from __future__ import annotations
 
-import os
 import tempfile
 from pathlib import Path
 from random import Random
@@ -19,9 +18,10 @@ from tests.fuzz.all_kinds import KINDS
 from tests.fuzz.harvest import CORPUS
 from tests.fuzz.kind import made
 from tests.fuzz.trial import trial
+from tests.long_forms import LONG
 
 KEPT = sorted(path for path in CORPUS.rglob("*") if path.is_file())
-TIMES = 4 if os.environ.get("ASSOC_HULL_LONG") else 2
+TIMES = 4 if LONG else 2
 """Inputs of each kind that takes long."""
 
 SLOW = {name: kind for name, kind in KINDS.items() if kind.weight < 10}

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import os
-
 import attrs
 from hypothesis import given, settings
 
 import assoc_hull as ah
 from assoc_hull.edit.report import EditReport
 from assoc_hull.errors import AssocHullError
+from tests.long_forms import LONG
 from tests.net_strategies import SHAPES, STRUCTURE, Task, hulls, perform, tasks
 
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 COUNT = 250 if LONG else 15
 """Examples, each of up to four edits."""
 

@@ -6,7 +6,6 @@ lives in a hull file.
 """
 
 import contextlib
-import os
 import sys
 import threading
 from collections.abc import Callable
@@ -21,12 +20,12 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.drag import _QuickWay
 from assoc_hull.edit.transaction import Transaction
+from tests.long_forms import LONG
 from tests.properties.test_program_edits import Count, by_program
 from tests.properties.test_published_states import content
 
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 ROOT = str(Path(ah.__file__).parent)
-COUNT = 400 if LONG else 10
+COUNT = 400 if LONG else 6
 """Interrupts an act."""
 
 

@@ -38,6 +38,7 @@ from assoc_hull.model.program.structure import (
 )
 from assoc_hull.model.tables import HullState, copy_state
 from tests.conftest import Shipped
+from tests.long_forms import LONG
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 
 NUMBERS = tuple(each.name for each in attrs.fields(Values))
@@ -157,7 +158,9 @@ def test_a_step_of_a_drag_is_the_whole_edit_to_the_bit(
     assert_drags_agree(hull, np.random.default_rng(seed), 4)
 
 
-@pytest.mark.parametrize("name", ["series60_70", "bulk_carrier", "container_ship_225m"])
+@pytest.mark.parametrize(
+    "name", ["series60_70", "bulk_carrier", *(["container_ship_225m"] if LONG else [])]
+)
 def test_a_step_of_a_drag_of_a_ship_is_the_whole_edit_to_the_bit(
     name: str, shipped: Shipped, backend_in_use: str
 ) -> None:

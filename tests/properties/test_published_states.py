@@ -6,7 +6,6 @@ hull as it was published.
 
 from __future__ import annotations
 
-import os
 import threading
 import time
 from collections.abc import Callable
@@ -32,9 +31,8 @@ from assoc_hull.graph.table import (
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.tables import HullState
 from tests.conftest import Shipped
+from tests.long_forms import LONG
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
-
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 
 tasks_of_all_kinds = tasks(SHAPES + STRUCTURE)
 

@@ -133,7 +133,8 @@ HULL: dict[str, Given] = {
                "appendages": (), "on_error": "refuse", "surface": None, "plates": None,
                "title": "t", "date": None},
     "export": {"path": "no-such-folder/a.dxf", "form": None, "unit": None,
-               "scale": None, "half": False, "points": None, "accept": False},
+               "scale": None, "half": False, "points": None, "accept": False,
+               "leave_out": ()},
 }  # fmt: skip
 EDIT: dict[str, Given] = {
     "fair": FAIR,
@@ -176,6 +177,15 @@ EDIT: dict[str, Given] = {
     "tunnel": {"name": "thruster", "x": 40.0, "z": 2.5, "radius": 0.5},
     "set_tunnel": {"name": "thruster", "x": 40.0, "z": 2.5, "radius": 0.5},
     "remove_tunnel": {"name": "thruster"},
+    "body": {
+        "name": "hatch", "group": "hatches", "x": (40.0, 50.0), "y": (-3.0, 3.0),
+        "z": (10.0, 11.0), "sections": None, "corners": None, "both": False, "sign": 1,
+    },
+    "set_body": {
+        "name": "hatch", "by": (1.0, 0.0, 0.0), "group": "hatches", "x": None, "y": None,
+        "z": None, "sections": None, "corners": None, "both": False, "sign": 1,
+    },
+    "remove_body": {"name": "hatch"},
     "set_form": {"definition": "areas", "values": 0.5},
     "reattach": {"line": CURVE},
     "transform": {

@@ -57,11 +57,23 @@ def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) ->
         ("parameters.md", "| `Cb` |"),
         ("named_parameters.md", "| `entrance_deg` |"),
         ("hydrostatic_values.md", "| `kmt` | KM_T | m |"),
+        ("cli.md", "usage: assoc-hull jumboise"),
+        ("variation_figures.md", "| bilge_radius | 3 |"),
+        ("features_of_lines.md", "| `ArcRule` |"),
+        ("table5.md", "| `KMT` |"),
     ],
-    ids=["form parameters", "named parameters", "hydrostatic values"],
+    ids=[
+        "form parameters",
+        "named parameters",
+        "hydrostatic values",
+        "commands",
+        "figures of the parameters",
+        "thresholds",
+        "table 5",
+    ],
 )
 def test_tables_that_are_made_from_the_code_stand_on_the_site(name: str, entry: str) -> None:
-    """The site puts them at a mark of the page, which the page in the repository only has."""
+    """The site puts them at a mark of the page."""
     hook = _script("site_hook")
     page = (ROOT / "docs" / name).read_text("utf-8")
     assert entry not in page

@@ -10,11 +10,14 @@ from collections.abc import Iterable
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import plain_name
+from assoc_hull.edit.modifications.names import taken_names
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.classical.appendages import AppendageBox, LoftedAppendage
 from assoc_hull.geometry.classical.deck import DeckHouse
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.attached_body import AttachedBody, bodies_in_order
+from assoc_hull.model.attached_body import AttachedBody
+from assoc_hull.model.attachments import attachments_in_order
 
 __all__ = [
     "ACROSS",
@@ -28,6 +31,9 @@ __all__ = [
 
 ACROSS = 17
 """Points at which the foot and the top of a block on a deck are taken, from side to side."""
+
+_NO_ADDRESS = str.maketrans(dict.fromkeys("#/[]:@", "-"))
+"""What addresses are made with, and names cannot have."""
 
 _ALONG = 9
 """Sections, ends among them, of a body that bends along the ship."""
@@ -81,14 +87,18 @@ def lofted_body(name: str, body: LoftedAppendage, both: bool, group: str) -> Att
 
 
 def put_bodies(edit: Transaction, bodies: Iterable[AttachedBody]) -> None:
-    """Keep bodies beside a net; those of a name that is taken are numbered."""
-    taken: set[str] = set()
+    """Keep bodies beside a net; those of a name that is taken are numbered, however it is written.
+
+    What could be read as an address is no name that they could be looked up by.
+    """
+    taken = {plain_name(each) for each in taken_names(edit.state)}
     found = []
     for each in bodies:
-        name, count = each.name, 1
-        while name in taken:
+        plain = each.name.translate(_NO_ADDRESS).replace(" x ", " by ").strip() or each.group
+        name, count = plain, 1
+        while plain_name(name) in taken:
             count += 1
-            name = f"{each.name} {count}"
-        taken.add(name)
+            name = f"{plain} {count}"
+        taken.add(plain_name(name))
         found.append(attrs.evolve(each, name=name))
-    edit.journal.set(edit.state.settings.bodies, [0], [bodies_in_order(found)])
+    edit.journal.set(edit.state.settings.bodies, [0], [attachments_in_order(found)])

@@ -22,6 +22,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.geometry.splines.distance import OwnedCurves, farthest_points, identical_curves
 from assoc_hull.model.address import AddressBook
+from assoc_hull.model.attachments import ATTACHMENTS, AttachmentKind
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.tables import HullState, copy_state
 
@@ -66,6 +67,31 @@ class LineDifference(ShownAsText):
 
 
 @attrs.frozen
+class BesideDifference:
+    """How a tunnel or a body beside the net differs between two states.
+
+    Attributes
+    ----------
+    kind, name : str
+        ``"tunnel"`` or ``"body"``; what it is called, ``"old -> new"`` if that changed alone.
+    what : {"added", "removed", "renamed", "changed"}
+        The difference.
+    before, after : str
+        What it is in both; blank where it is not there.
+    """
+
+    kind: str
+    name: str
+    what: str
+    before: str = ""
+    after: str = ""
+
+    def __str__(self) -> str:
+        there = f": {self.before} -> {self.after}" if self.what == "changed" else ""
+        return f"the {self.kind} {self.name}: {self.what}{there}"
+
+
+@attrs.frozen
 class Comparison(ShownAsText):
     """Two states of a hull side by side.
 
@@ -78,11 +104,13 @@ class Comparison(ShownAsText):
     numbers : dict of str to (float or None, float or None)
         Principal numbers in both states, those that differ: dimensions (m), ``volume`` (m3)
         and ``lcb`` (m from AP, + forward) at the design draught, less tunnels, counts of lines,
-        tunnels and points. None where there are not sections enough.
+        tunnels, bodies and points. None where there are not sections enough.
     names : (str, str)
         Name of the ship in both.
     decks : (str, str)
         The deck in both: open or closed.
+    beside : tuple of BesideDifference
+        Tunnels and bodies that differ, by kind and name.
     """
 
     states: tuple[str, str]
@@ -90,11 +118,12 @@ class Comparison(ShownAsText):
     numbers: dict[str, tuple[float | None, float | None]]
     names: tuple[str, str]
     decks: tuple[str, str]
+    beside: tuple[BesideDifference, ...] = ()
 
     def __str__(self) -> str:
         many = "1 line differs" if len(self.lines) == 1 else f"{len(self.lines)} lines differ"
         head = f"{self.states[0]} -> {self.states[1]}: {many}"
-        text = [head, *(f"  {line}" for line in self.lines)]
+        text = [head, *(f"  {each}" for each in (*self.lines, *self.beside))]
         for name, (old, new) in self.numbers.items():
             change = "" if old is None or new is None else f" ({new - old:+.6g})"
             text.append(f"  {name}: {_plain(old)} -> {_plain(new)}{change}")
@@ -119,7 +148,8 @@ def compare_states(before: HullState, after: HullState, states: tuple[str, str])
     numbers = {name: (one[name], two[name]) for name in one if one[name] != two[name]}
     ship, other = before.particulars, after.particulars
     words = (ship.name, other.name), (ship.deck, other.deck)
-    return Comparison(states, tuple(order), numbers, *words)
+    beside = tuple(each for kind in ATTACHMENTS for each in _beside(kind, before, after))
+    return Comparison(states, tuple(order), numbers, *words, beside)
 
 
 Pieces = tuple[str, list[SplineBatch]]
@@ -147,6 +177,26 @@ def _differences(pairs: Sequence[tuple[Pieces, Pieces]]) -> Iterator[LineDiffere
             yield LineDifference(f"{old[0]} -> {new[0]}", "renamed")
 
 
+def _beside(
+    kind: AttachmentKind, before: HullState, after: HullState
+) -> Iterator[BesideDifference]:
+    """Say how things of one kind differ; one that has another name alone is paired by the rest."""
+    old, new = ({each.name: each for each in kind.of(state)[0]} for state in (before, after))
+    gone = [name for name in old if name not in new]
+    for name, each in new.items():
+        like = [was for was in gone if attrs.evolve(old[was], name=name) == each]
+        if name not in old and like:
+            was = like[0]
+            gone.remove(was)
+            yield BesideDifference(kind.word, f"{was} -> {name}", "renamed")
+        elif name not in old:
+            yield BesideDifference(kind.word, name, "added", after=str(each))
+        elif each != old[name]:
+            yield BesideDifference(kind.word, name, "changed", str(old[name]), str(each))
+    for name in gone:
+        yield BesideDifference(kind.word, name, "removed", before=str(old[name]))
+
+
 def _numbers(state: HullState) -> dict[str, float | None]:
     """Give the principal numbers of a state."""
     ship, sort = state.particulars, state.rows.sort[state.live("rows")]
@@ -158,7 +208,8 @@ def _numbers(state: HullState) -> dict[str, float | None]:
         found |= {"volume": measured.volume, "lcb": measured.lcb}
     except BadInputError:
         found |= {"volume": None, "lcb": None}
-    found["lines"], found["tunnels"] = float(len(state.live("lines"))), float(len(state.tunnels))
+    found["lines"] = float(len(state.live("lines")))
+    found |= {kind.column: float(len(kind.of(state)[0])) for kind in ATTACHMENTS}
     for each in Sort:
         found[f"{each.name.lower()} points"] = float((sort == each).sum())
     return found

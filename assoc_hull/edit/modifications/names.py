@@ -11,6 +11,7 @@ from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, NameTakenError
 from assoc_hull.model.address import ResolvedAddress
+from assoc_hull.model.attachments import attachment_names
 from assoc_hull.model.kinds import OWN
 from assoc_hull.model.tables import HullState
 
@@ -114,21 +115,20 @@ def _rename_point(edit: Transaction, row: int, name: str) -> None:
 
 
 def taken_names(state: HullState) -> set[str]:
-    """Give all names and keys of groups and lines, labels of points and names of tunnels."""
+    """Give all names and keys of groups, lines and things beside the net, and labels of points."""
     lines = {state.lines.name[line] for line in state.live("lines").tolist()}
     return (lines | _fixed(state) | set(state.rows.label.data.given.values())) - {""}
 
 
 def _fixed(state: HullState) -> set[str]:
     """Give the names that no object can lay down."""
-    tunnels = {each.name for each in state.tunnels}
-    return set(state.groups.name.data) | set(state.lines.key.data) | tunnels
+    return {*state.groups.name.data, *state.lines.key.data, *attachment_names(state)}
 
 
 def _plain_groups(state: HullState) -> set[str]:
-    """Give names of groups and tunnels as they are looked up: case and spaces do not matter."""
+    """Give names of groups and of things beside the net as they are looked up."""
     groups = {plain_name(state.groups.name[each]) for each in state.live("groups").tolist()}
-    return groups | {plain_name(each.name) for each in state.tunnels}
+    return groups | {plain_name(each) for each in attachment_names(state)}
 
 
 def _labels(state: HullState, but: int) -> set[str]:

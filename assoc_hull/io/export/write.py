@@ -247,13 +247,16 @@ def export_hull(
         raise BadInputError(what, "in export", "leave the scale out")
     book.paper, book.accept = scale, accept
     written = chosen.write(state, book)
-    if state.tunnels and name != "hull":
-        names = ", ".join(each.name for each in state.tunnels)
-        book.leave_out("tunnels", "the hull", f"its tunnels ({names})", len(state.tunnels))
     write_whole(path, written)
-    if state.bodies and name != "hull":
-        names = ", ".join(each.name for each in state.bodies)
-        book.leave_out("bodies", "the hull", f"bodies beside its net ({names})", len(state.bodies))
+    # Files of Rhino hold the closed mesh too, which has them.
+    but = ", but for the closed mesh" if name == "3dm" else ""
+    for kind, what, held in (
+        ("tunnels", "its tunnels", state.tunnels),
+        ("bodies", "bodies beside its net", state.bodies),
+    ):
+        if held and name != "hull":
+            names = ", ".join(each.name for each in held)
+            book.leave_out(kind, "the hull", f"{what} ({names}){but}", len(held))
     report = book.report(os.fspath(path), name)
     return attrs.evolve(report, rounding=0.0) if chosen.decimals == _EXACT else report
 

@@ -20,6 +20,7 @@ import numpy as np
 from assoc_hull.edit.document import Document, Label
 from assoc_hull.edit.step import Step
 from assoc_hull.geometry.curves import IntArray, PointKind
+from assoc_hull.model.attachments import ATTACHMENTS
 from assoc_hull.model.form_definition import GENERATED
 from assoc_hull.model.kinds import FAMILIES, OWN, BoundaryKind, Role, Sort, State
 from assoc_hull.model.tables import HullState
@@ -172,12 +173,11 @@ def _settings(state: HullState) -> Iterator[str]:
     for each in state.rulings:
         if not {each.a, each.b} <= keys:
             yield f"{each.a!r} and {each.b!r} rule by a box, and are no groups or lines"
-    names = [each.name for each in state.tunnels]
-    if not all(names) or len({*names, *groups}) < len(names) + len(groups):
-        yield "a tunnel has no name, or one that something else has"
-    called = [each.name for each in state.bodies]
-    if not all(called) or len(set(called)) < len(called):
-        yield "a body beside the net has no name, or one that another has"
+    # Bodies of version 11 could be called as a group is.
+    for kind, others in zip(ATTACHMENTS, (groups, set[str]()), strict=True):
+        names = [each.name for each in kind.of(state)[0]]
+        if not all(names) or len({*names, *others}) < len(names) + len(others):
+            yield f"a {kind.word} has no name, or one that something else has"
     if not all(count > 0 for count in state.births.values()):
         yield "a pair of lines bore no crossing"
     if not set(state.failed) <= set(state.live("curves").tolist()):

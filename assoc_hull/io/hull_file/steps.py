@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 import sqlite3
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -27,12 +27,11 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.network import Readers
 from assoc_hull.io.hull_file.guard import MOST_BYTES, MOST_TEXT, parse_json, read_rows
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
-from assoc_hull.model.attached_body import AttachedBody
+from assoc_hull.model.attachments import ATTACHMENTS, Attachment
 from assoc_hull.model.change import CrossingPositions, TableChange, positions_against
 from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.tables import Association, Ends, HullState, Particulars, Ruling
-from assoc_hull.model.tunnel_definition import TunnelDefinition
 
 __all__ = [
     "body_of",
@@ -328,6 +327,14 @@ def _made(said: Any) -> GeneratedCurve | None:
     return GeneratedCurve(**{**said, "rows": tuple(_numbers(said["rows"])), "marks": marks})
 
 
+def _held(held: Iterable[Attachment]) -> list[Any]:
+    return [list(attrs.astuple(each, recurse=False)) for each in held]
+
+
+def _held_of(made: type[Attachment], said: Iterable[Any]) -> tuple[Attachment, ...]:
+    return tuple(made(*each) for each in said)
+
+
 _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
     "curves.rows": (_numbers, _frozen),
     "curves.side": (_numbers, _frozen),
@@ -347,14 +354,7 @@ _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
         lambda rulings: [list(attrs.astuple(each)) for each in rulings],
         lambda said: tuple(Ruling(a, b, w, tuple(low), tuple(high)) for a, b, w, low, high in said),
     ),
-    "settings.tunnels": (
-        lambda tunnels: [list(attrs.astuple(each)) for each in tunnels],
-        lambda said: tuple(TunnelDefinition(*each) for each in said),
-    ),
-    "settings.bodies": (
-        lambda bodies: [list(attrs.astuple(each, recurse=False)) for each in bodies],
-        lambda said: tuple(AttachedBody(*each) for each in said),
-    ),
+    **{f"settings.{kind.column}": (_held, partial(_held_of, kind.made)) for kind in ATTACHMENTS},
 }
 """By column: to what JSON can say, and back. All other columns of objects hold texts."""
 

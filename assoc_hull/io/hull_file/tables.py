@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.io.hull_file.guard import parse_json, read_numbered, read_rows
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
-from assoc_hull.model.attached_body import AttachedBody, bodies_in_order
+from assoc_hull.model.attached_body import AttachedBody
+from assoc_hull.model.attachments import attachments_in_order
 from assoc_hull.model.births import Births, Pair
 from assoc_hull.model.change import (
     CrossingPositions,
@@ -32,7 +33,7 @@ from assoc_hull.model.features import Feature
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.kinds import State
 from assoc_hull.model.tables import Association, Ends, HullState, Particulars, Ruling
-from assoc_hull.model.tunnel_definition import TunnelDefinition, tunnels_in_order
+from assoc_hull.model.tunnel_definition import TunnelDefinition
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -433,14 +434,14 @@ def read_state(database: sqlite3.Connection) -> HullState:
         for a, b, way, box in ruled
     )
     cylinders = read_rows(database, "SELECT name, x, z, radius FROM tunnels ORDER BY place")
-    state.settings.tunnels.data[0] = tunnels_in_order(
+    state.settings.tunnels.data[0] = attachments_in_order(
         TunnelDefinition(name, *(float(np.frombuffer(each, "<f8")[0]) for each in numbers))
         for name, *numbers in cylinders
     )
     outlined = read_rows(
         database, "SELECT name, kind, sections, corners, both, sign FROM bodies ORDER BY place"
     )
-    state.settings.bodies.data[0] = bodies_in_order(
+    state.settings.bodies.data[0] = attachments_in_order(
         AttachedBody(name, kind, parse_json(rings), parse_json(corners), bool(both), sign)
         for name, kind, rings, corners, both, sign in outlined
     )

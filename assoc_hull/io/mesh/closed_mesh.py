@@ -19,9 +19,10 @@ import numpy as np
 from assoc_hull.arguments import choice, instance, text
 from assoc_hull.errors import MissingExtraError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.surfaces.triangles import Triangles, merge_vertices
+from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.io.write_file import form_by_ending, write_whole
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh, examine_mesh, require_closed
+from assoc_hull.surface.cells.meshed_bodies import welded
 
 __all__ = [
     "MESH_ENDINGS",
@@ -78,17 +79,28 @@ class FiledMesh:
             It does not close, before or after it was rounded; a half may be open in the centre
             plane.
         """
-        order = np.argsort(mesh.group, kind="stable")
-        found = merge_vertices(rounded(mesh.xyz * scale), mesh.triangle[order], order)
-        first, second, third = found.face.T
-        whole = (first != second) & (second != third) & (third != first)
-        face, kept = found.face[whole], order[whole]
-        used, number = np.unique(face, return_inverse=True)
-        xyz, face = found.xyz[used], number.reshape(-1, 3)
-        report = examine_mesh(xyz / scale, face, tunnels=mesh.report.tunnels)
-        if report.off_centre if mesh.half else not report.sound:
-            require_closed(report, "a file", mesh.half)
-        return cls(xyz, face, mesh.group[kept], mesh.names, title)
+        places, tunnels = rounded(mesh.xyz * scale), mesh.report.tunnels
+        every = [(0, mesh.report.triangles, 1, tunnels, "a file", "mend the lines there")]
+        every += [
+            (each.first, each.last, each.sign, 0, f"the body {each.name!r} in a file",
+             "leave it out of the mesh, by leave_out")
+            for each in mesh.bodies
+        ]  # fmt: skip
+        xyz, faces, groups, count = list[FloatArray](), list[IntArray](), list[IntArray](), 0
+        # The hull and each body by itself: places that they share stay apart.
+        for first, last, sign, holes, what, remedy in every:
+            order = first + np.argsort(mesh.group[first:last], kind="stable")
+            found = welded(places, mesh.triangle[order])
+            report = examine_mesh(found.xyz / scale, found.face[:, ::sign], tunnels=holes)
+            if report.off_centre if mesh.half else not report.sound:
+                require_closed(report, what, mesh.half, remedy)
+            xyz.append(found.xyz)
+            faces.append(found.face + count)
+            groups.append(mesh.group[order[found.origin]])
+            count += len(found.xyz)
+        return cls(
+            np.concatenate(xyz), np.concatenate(faces), np.concatenate(groups), mesh.names, title
+        )
 
     @property
     def runs(self) -> list[tuple[str, IntArray]]:
@@ -139,14 +151,15 @@ def _obj(mesh: FiledMesh) -> bytes:
 
 def _ply(mesh: FiledMesh) -> bytes:
     names = [f"comment group {number} {name}" for number, name in enumerate(mesh.names)]
+    kind, small = ("uchar", "u1") if len(names) <= 256 else ("ushort", "<u2")
     head = [
         "ply", "format binary_little_endian 1.0", f"comment {mesh.title}", *names,
         f"element vertex {len(mesh.xyz)}", "property double x", "property double y",
         "property double z", f"element face {len(mesh.triangle)}",
-        "property list uchar int vertex_indices", "property uchar group", "end_header", "",
+        "property list uchar int vertex_indices", f"property {kind} group", "end_header", "",
     ]  # fmt: skip
     rows = np.zeros(
-        len(mesh.triangle), np.dtype([("many", "u1"), ("corner", "<i4", 3), ("group", "u1")])
+        len(mesh.triangle), np.dtype([("many", "u1"), ("corner", "<i4", 3), ("group", small)])
     )
     rows["many"], rows["corner"], rows["group"] = 3, mesh.triangle, mesh.group
     return (
@@ -261,13 +274,15 @@ class MeshFile:
     left_out : int
         Triangles of the mesh that have no area in the numbers of the file.
     groups : tuple of str
-        Shell, deck, other covers. STL tells them in its text only.
+        Shell, deck, other covers, tunnels, bodies. STL tells them in its text only.
     volume : float or None, m3
-        What it encloses; None of a half, which encloses nothing.
+        What the hull encloses, without bodies; None of a half, which encloses nothing.
     size : int
         Bytes.
     chord : float or None, m
         How far the lines leave the edges of triangles between points at most.
+    bodies : tuple of str
+        Those of the groups that are bodies beside the hull, each closed by itself.
     """
 
     path: str
@@ -281,6 +296,7 @@ class MeshFile:
     volume: float | None
     size: int
     chord: float | None = None
+    bodies: tuple[str, ...] = ()
 
 
 def mesh_form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
@@ -348,4 +364,5 @@ def write_mesh(
         os.fspath(path), chosen, used, mesh.half, len(filed.xyz), len(filed.triangle),
         len(mesh.triangle) - len(filed.triangle), mesh.names,
         None if mesh.half else mesh.volume, len(data), float(mesh.sagitta[2]),
+        tuple(dict.fromkeys(each.name for each in mesh.bodies)),
     )  # fmt: skip

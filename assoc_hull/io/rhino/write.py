@@ -16,7 +16,6 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.errors import AssocHullError, BadInputError, MissingExtraError, NotSoundError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
@@ -29,7 +28,7 @@ from assoc_hull.model.tables import HullState
 from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import fit_options, length_of
 from assoc_hull.surface.blocks.fitted_surface import require_sound_surface
-from assoc_hull.surface.cells.closed_mesh import mesh_of_net
+from assoc_hull.surface.cells.closed_mesh import mesh_of_state
 
 __all__ = ["rhino_file", "rhino_module"]
 
@@ -86,8 +85,10 @@ def rhino_file(state: HullState, book: ExportBook) -> bytes:
     except AssocHullError as error:
         book.leave_out("surface", "the hull", f"none can be fitted: {error}")
     try:
-        mesh = mesh_of_net(gather_net(state))
-        file.add_mesh(mesh.xyz, mesh.triangle)
+        mesh = mesh_of_state(state)
+        file.add_mesh("closed mesh", mesh.xyz, mesh.triangle[: mesh.report.triangles])
+        for each in mesh.bodies:
+            file.add_mesh(each.name, mesh.xyz, mesh.triangle[each.first : each.last])
     except AssocHullError as error:
         book.leave_out("mesh", "the hull", f"none closes: {error}")
     file.model.Strings[MARK] = hull_text(state)
@@ -191,16 +192,17 @@ class _File:
                 side[i] = knot
         return made
 
-    def add_mesh(self, xyz: FloatArray, triangle: IntArray) -> None:
-        """Add triangles as one mesh."""
+    def add_mesh(self, name: str, xyz: FloatArray, triangle: IntArray) -> None:
+        """Add triangles as one mesh, with the vertices that they use."""
+        used, face = np.unique(triangle, return_inverse=True)
         mesh = self.rhino.Mesh()
         mesh.Vertices.UseDoublePrecisionVertices = True
-        for x, y, z in (xyz * self.book.scale + 0.0).tolist():
+        for x, y, z in (xyz[used] * self.book.scale + 0.0).tolist():
             mesh.Vertices.Add(x, y, z)
-        for a, b, c in triangle.tolist():
+        for a, b, c in face.reshape(-1, 3).tolist():
             mesh.Faces.AddFace(a, b, c)
         layer = self.layer("mesh", "mesh")
-        self.model.Objects.AddMesh(mesh, self.attributes("closed mesh", layer, IMAGE))
+        self.model.Objects.AddMesh(mesh, self.attributes(name, layer, IMAGE))
 
     def bytes(self) -> bytes:
         """Give the file, which the library writes to a place of its own first."""

@@ -21,7 +21,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, IntArray, PointKind
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import ValueColumn
-from assoc_hull.model.attached_body import AttachedBody, bodies_in_order
+from assoc_hull.model.attachments import ATTACHMENTS, AttachmentKind, attachments_in_order
 from assoc_hull.model.births import Births
 from assoc_hull.model.definition.records import code_words
 from assoc_hull.model.features import Feature
@@ -41,7 +41,6 @@ from assoc_hull.model.tables import (
     Rows,
     Ruling,
 )
-from assoc_hull.model.tunnel_definition import TunnelDefinition, tunnels_in_order
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -593,8 +592,8 @@ def make_tables(definition: Record) -> HullState:
     _check_births(state)
     put_meetings(state, journal, parts[1], keys.find)
     _put_rulings(state, journal, definition.get("rulings", ()), keys)
-    _put_tunnels(state, journal, definition.get("tunnels", ()))
-    _put_bodies(state, journal, definition.get("bodies", ()))
+    for kind in ATTACHMENTS:
+        _put_attachments(state, journal, kind, definition.get(kind.column, ()))
     put_features(state, journal, definition.get("features", ()), keys)
     put_forms(state, journal, definition, keys)
     _retire(state, journal, gone)
@@ -661,22 +660,16 @@ def _put_rulings(
         journal.set(state.settings.rulings, [0], [found])
 
 
-def _put_tunnels(state: HullState, journal: Journal, tunnels: Sequence[Record]) -> None:
-    found = tunnels_in_order(TunnelDefinition(**each) for each in tunnels)
+def _put_attachments(
+    state: HullState, journal: Journal, kind: AttachmentKind, records: Sequence[Record]
+) -> None:
+    found = attachments_in_order(kind.made(**each) for each in records)
     for one, next_ in pairwise(found):
         if one.name == next_.name:
-            raise contradiction(f"the tunnel {one.name!r} stands there twice", "in the tunnels")
+            what = f"the {kind.word} {one.name!r} stands there twice"
+            raise contradiction(what, f"in the {kind.column}")
     if found:
-        journal.set(state.settings.tunnels, [0], [found])
-
-
-def _put_bodies(state: HullState, journal: Journal, bodies: Sequence[Record]) -> None:
-    found = bodies_in_order(AttachedBody(**each) for each in bodies)
-    for one, next_ in pairwise(found):
-        if one.name == next_.name:
-            raise contradiction(f"the body {one.name!r} stands there twice", "in the bodies")
-    if found:
-        journal.set(state.settings.bodies, [0], [found])
+        journal.set(kind.of(state), [0], [found])
 
 
 def _put_lines(

@@ -20,6 +20,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from assoc_hull.model.attachments import attachment_records
 from assoc_hull.model.definition.canonical_columns import (
     CanonicalOrder,
     Column,
@@ -36,12 +37,10 @@ from assoc_hull.model.definition.canonical_columns import (
 from assoc_hull.model.definition.records import (
     association_records,
     birth_records,
-    body_records,
     definition_columns,
     generated_columns,
     plain_fields,
     ruling_records,
-    tunnel_records,
 )
 from assoc_hull.model.tables import HullState
 
@@ -101,8 +100,7 @@ def _settings(state: HullState, order: CanonicalOrder) -> list[object]:
     members = [state.groups.members[i] for i in order.groups.tolist()]
     found = [names, association_records(state), birth_records(state), retired_keys(state)]
     found += [ruling_records(state)] if state.rulings else []
-    found += [{"tunnels": tunnel_records(state)}] if state.tunnels else []
-    found += [{"bodies": body_records(state)}] if state.bodies else []
+    found += [{kind: held} for kind, held in attachment_records(state).items() if held]
     return [*found, *([{"members": members}] if any(members) else ())]
 
 

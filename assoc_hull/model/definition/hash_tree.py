@@ -28,17 +28,16 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.graph.derived import same_objects
 from assoc_hull.graph.journal import distinct
+from assoc_hull.model.attachments import attachment_records
 from assoc_hull.model.change import TableChange
 from assoc_hull.model.definition.canonical_columns import retired_keys
 from assoc_hull.model.definition.records import (
     association_records,
     birth_records,
-    body_records,
     definition_records,
     generated_records,
     plain_fields,
     ruling_records,
-    tunnel_records,
 )
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import CurveIntersections, HullState
@@ -328,8 +327,7 @@ class HashTree:
             retired_keys(state), list(definition_records(state)), list(generated_records(state)),
             [_named(self.state.groups.name.data, group) for group in self._groups],
             *([ruling_records(state)] if state.rulings else ()),
-            *([{"tunnels": tunnel_records(state)}] if state.tunnels else ()),
-            *([{"bodies": body_records(state)}] if state.bodies else ()),
+            *({kind: held} for kind, held in attachment_records(state).items() if held),
         ]  # fmt: skip
         return _hash(told, np.array(reals, np.float64))
 

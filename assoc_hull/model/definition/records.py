@@ -22,6 +22,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import EndKind, PointKind
+from assoc_hull.model.attachments import attachment_records
 from assoc_hull.model.definition.canonical_columns import (
     CanonicalOrder,
     Column,
@@ -37,7 +38,6 @@ from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
 from assoc_hull.model.tables import HullState
 
 __all__ = [
-    "body_records",
     "code_words",
     "definition",
     "definition_columns",
@@ -45,7 +45,6 @@ __all__ = [
     "generated_columns",
     "generated_records",
     "published",
-    "tunnel_records",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -143,8 +142,7 @@ def definition(state: HullState) -> dict[str, object]:
     more = {
         "features": list(_feature_records(state)),
         "rulings": ruling_records(state),
-        "tunnels": tunnel_records(state),
-        "bodies": body_records(state),
+        **attachment_records(state),
         "definitions": list(definition_records(state)),
         "generated": list(generated_records(state)),
     }
@@ -190,26 +188,6 @@ def ruling_records(state: HullState) -> list[Record]:
     return [
         {**attrs.asdict(each), "low": list(each.low), "high": list(each.high)}
         for each in state.rulings
-    ]
-
-
-def tunnel_records(state: HullState) -> list[Record]:
-    """Give each tunnel as plain values, by name."""
-    return [attrs.asdict(each) for each in state.tunnels]
-
-
-def body_records(state: HullState) -> list[Record]:
-    """Give each body beside the net as plain values, by name."""
-    return [
-        {
-            "name": each.name,
-            "group": each.group,
-            "sections": [[list(point) for point in ring] for ring in each.sections],
-            "corners": list(each.corners),
-            "both": each.both,
-            "sign": each.sign,
-        }
-        for each in state.bodies
     ]
 
 

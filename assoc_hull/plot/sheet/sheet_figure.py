@@ -23,15 +23,29 @@ from assoc_hull.plot.sheet.paper import POINT, Paper, Pen, paper_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.text import Text
+from matplotlib.figure import Figure
 
-__all__ = [
-    "Path_",
-    "Sheet",
-    "pdf_of",
-    "pdf_of_figures",
-    "require_matplotlib",
-    "save",
-]
+__all__ = ["Path_", "Sheet", "pdf_of", "pdf_of_figures", "require_matplotlib", "save"]
+
+# --------------------------------------------------------------------------------------
+# A figure of matplotlib that a notebook shows without being told to.
+#
+# It is a module of its own since it imports matplotlib, which others import when a sheet is made.
+
+_DOTS = 100.0
+"""Of an inch on the screen."""
+
+
+class ShownFigure(Figure):
+    """A figure that a notebook shows as a picture, whether pyplot has been imported or not."""
+
+    def _repr_png_(self) -> bytes:
+        file = io.BytesIO()
+        self.savefig(file, format="png", dpi=_DOTS)
+        return file.getvalue()
+
+
+# --------------------------------------------------------------------------------------
 
 # --------------------------------------------------------------------------------------
 # A sheet of paper: lines and letters placed in millimetres, written the same way each time.
@@ -82,8 +96,6 @@ class Sheet:
     def __init__(self, paper: str | Paper, height: float | None = None) -> None:
         require_matplotlib()
         from matplotlib.backends.backend_agg import FigureCanvasAgg
-
-        from assoc_hull.plot.sheet.shown_figure import ShownFigure
 
         size = paper if isinstance(paper, Paper) else paper_of(paper)
         self.paper = size if height is None else attrs.evolve(size, height=height)

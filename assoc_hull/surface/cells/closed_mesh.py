@@ -7,7 +7,7 @@ Deck and transom are covered whatever the particulars say of the deck.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import attrs
 import numpy as np
@@ -22,9 +22,11 @@ from assoc_hull.geometry.floating.immersed_triangles import immersed_triangles, 
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.surfaces.triangles import Triangles
-from assoc_hull.model.tables import HasState, state_of
+from assoc_hull.model.attached_body import AttachedBody
+from assoc_hull.model.tables import HasState, HullState, state_of
 from assoc_hull.model.tunnel_definition import TunnelDefinition
 from assoc_hull.surface.cells.filling import FilledCells, fill_cells
+from assoc_hull.surface.cells.meshed_bodies import surfaces_of
 from assoc_hull.surface.cells.net_faces import sound_cells
 from assoc_hull.surface.cells.net_nodes import merge_linked
 from assoc_hull.surface.cells.tunnel_walls import cut_mouth, wall_of
@@ -34,12 +36,14 @@ __all__ = [
     "BelowDraught",
     "ClosedMesh",
     "MeshReport",
+    "MeshedBody",
     "TriangleGroups",
     "closed_mesh",
     "cover_openings",
     "curves_named",
     "examine_mesh",
     "mesh_of_net",
+    "mesh_of_state",
     "mirror_half",
     "require_closed",
 ]
@@ -379,21 +383,45 @@ class BelowDraught:
 
 
 @attrs.frozen(eq=False)
+class MeshedBody:
+    """A closed surface of a body beside the net; one that stands on both sides has two.
+
+    Attributes
+    ----------
+    name : str
+        Its group.
+    first, last : int
+        Its triangles in the mesh, the last left out.
+    sign : int
+        1 faces outward; -1 is taken from the hull, and faces inward.
+    report : MeshReport
+        What was found of it, as it faces outward.
+    """
+
+    name: str
+    first: int
+    last: int
+    sign: int
+    report: MeshReport
+
+
+@attrs.frozen(eq=False)
 class ClosedMesh(ShownAsText):
-    """Triangles that enclose a hull, or its port half.
+    """Triangles that enclose a hull, or its port half, and each body beside its net.
 
     Attributes
     ----------
     xyz : (v, 3), m
-        Vertices.
+        Vertices: first those of the hull, which shares none with bodies.
     triangle : (f, 3) int
-        Counter-clockwise from outside.
+        Counter-clockwise from outside: first those of the hull, then those of bodies.
     group : (f,) int
         The group of each, a place in `names`.
     cell : (f,) int
-        The cell of the net that each lies in, the same on both sides; -1 in deck and ends.
+        The cell of the net that each lies in, the same on both sides; -1 in deck, ends and bodies.
     names : tuple of str
-        The groups: ``"shell"``, then ``"deck"``, and other covers by the lines at their borders.
+        The groups: ``"shell"``, then ``"deck"``, other covers by the lines at their borders,
+        tunnels, bodies.
     half : bool
         The port half only, which is open in the centre plane.
     steps : int
@@ -401,11 +429,14 @@ class ClosedMesh(ShownAsText):
     cells : int
         Cells of the net, of one half.
     report : MeshReport
-        What was found of it.
+        What was found of the hull itself.
     sagitta : (3,), m
         How far the lines leave their chords between points: half, 95 % and all of them no more.
     notes : tuple of str
-        What was done to lines that do not part the hull into cells as they are.
+        What was done to lines that do not part the hull into cells as they are, and bodies that
+        enclose nothing, which are left out.
+    bodies : tuple of MeshedBody
+        Beside the hull, each closed by itself.
     """
 
     xyz: FloatArray
@@ -419,6 +450,7 @@ class ClosedMesh(ShownAsText):
     report: MeshReport
     sagitta: FloatArray
     notes: tuple[str, ...] = ()
+    bodies: tuple[MeshedBody, ...] = ()
 
     def __attrs_post_init__(self) -> None:
         freeze(self.xyz, self.triangle, self.group, self.cell, self.sagitta)
@@ -430,7 +462,7 @@ class ClosedMesh(ShownAsText):
 
     @property
     def volume(self) -> float:
-        """What it encloses, m3.
+        """What the hull encloses, m3, without bodies beside it.
 
         Raises
         ------
@@ -442,6 +474,8 @@ class ClosedMesh(ShownAsText):
 
     def below(self, draught: float) -> BelowDraught:
         """Give volume and centroid below a waterplane: a check of `Hull.hydrostatics`.
+
+        Of the hull alone: hydrostatics do not see bodies beside the net.
 
         Parameters
         ----------
@@ -457,12 +491,14 @@ class ClosedMesh(ShownAsText):
         """
         require_closed(self.report, "the volume below a draught", self.half)
         height = positive(draught, "draught", _WHERE)
-        if height <= float(self.xyz[:, 2].min()):
+        xyz = self.xyz[: self.report.vertices]
+        if height <= float(xyz[:, 2].min()):
             raise BadInputError(
                 f"a draught of {height:g} m, below which nothing lies", _WHERE, "give a larger one"
             )
         level = FloatingPlanes(np.array([height]), np.zeros(1), np.zeros(1))
-        found = immersed_triangles(make_body(self.triangles), level)
+        hull = Triangles(xyz, self.triangle[: self.report.triangles])
+        found = immersed_triangles(make_body(hull), level)
         volume = float(found.volume[0])
         return BelowDraught(
             volume, float(found.moment_x[0]) / volume, float(found.moment_z[0]) / volume
@@ -470,7 +506,7 @@ class ClosedMesh(ShownAsText):
 
     @property
     def area(self) -> float:
-        """The area of all triangles, m2."""
+        """The area of the hull, m2, without bodies beside it."""
         return self.report.area
 
     @property
@@ -484,7 +520,10 @@ class ClosedMesh(ShownAsText):
     def __str__(self) -> str:
         report = self.report
         sides = "port half, open in the centre plane" if self.half else "both sides"
-        areas = ", ".join(f"{name} {area:.3f} m2" for name, area in self.areas.items())
+        beside = {each.name for each in self.bodies}
+        areas = ", ".join(
+            f"{name} {area:.3f} m2" for name, area in self.areas.items() if name not in beside
+        )
         volume = " ".join(f"{each:.3f}" for each in report.fluxes.tolist())
         closed = f"yes: each edge in two triangles, Euler {report.euler}"
         where = "elsewhere" if report.off_centre else "all in the centre plane"
@@ -499,12 +538,27 @@ class ClosedMesh(ShownAsText):
             ("volume", f"{volume} m3, by x, y and z" if report.sound else "none: it is open"),
             ("chords", f"{bend[0]} mm off their lines (median), 95 % {bend[1]}, most {bend[2]}"),
             ("slenderness", f"median {median:.1f}, 95 % below {most:.1f}, 99 % below {nearly:.1f}"),
+            *([("bodies", self._bodies())] if self.bodies else []),
             *(("note", note) for note in self.notes),
         ]
         return "\n".join(f"{name:<12}{text}" for name, text in rows)
 
+    def _bodies(self) -> str:
+        """Say what stands beside the hull."""
+        told = dict.fromkeys(each.name for each in self.bodies)
+        if self.half:
+            return f"beside the hull, what of them stands to port: {', '.join(told)}"
+        volumes = dict.fromkeys(told, 0.0)
+        for each in self.bodies:
+            volumes[each.name] += each.sign * float(each.report.fluxes.mean())
+        words = ", ".join(f"{name} {volume:.3f} m3" for name, volume in volumes.items())
+        triangles = len(self.triangle) - self.report.triangles
+        return f"beside the hull, each closed: {words}; {triangles} triangles"
 
-def require_closed(report: MeshReport, asked: str, half: bool) -> None:
+
+def require_closed(
+    report: MeshReport, asked: str, half: bool, remedy: str = "mend the lines there"
+) -> None:
     """Refuse what only a closed mesh has.
 
     Raises
@@ -518,8 +572,45 @@ def require_closed(report: MeshReport, asked: str, half: bool) -> None:
     raise OpenMeshError(
         asked, report.open_edges, (x, y, z),
         "this is one half, open in the centre plane: make both" if half and not report.off_centre
-        else "mend the lines there",
+        else remedy,
     )  # fmt: skip
+
+
+def _with_bodies(mesh: ClosedMesh, bodies: Sequence[AttachedBody]) -> ClosedMesh:
+    """Set bodies beside a mesh of a hull, each a group."""
+    xyz, triangle, group = [mesh.xyz], [mesh.triangle], [mesh.group]
+    names, notes, found = list(mesh.names), list(mesh.notes), list[MeshedBody]()
+    vertices, count = len(mesh.xyz), len(mesh.triangle)
+    called = _group_names(bodies, mesh.names)
+    for each in surfaces_of(bodies, half=mesh.half):
+        report = None
+        if len(each.triangle):
+            report = examine_mesh(each.xyz, each.triangle[:, :: each.sign])
+        if report is None or (report.off_centre if mesh.half else not report.sound):
+            notes.append(f"the body {each.name!r} encloses nothing as it is, and is left out")
+            continue
+        name = called[each.name]
+        names += [name] if name not in names else []
+        xyz.append(each.xyz)
+        triangle.append(each.triangle + vertices)
+        group.append(np.full(len(each.triangle), names.index(name)))
+        found.append(MeshedBody(name, count, count + len(each.triangle), each.sign, report))
+        vertices, count = vertices + len(each.xyz), count + len(each.triangle)
+    faces = np.concatenate(triangle)
+    cell = np.full(count, -1)
+    cell[: len(mesh.cell)] = mesh.cell
+    return attrs.evolve(
+        mesh, xyz=np.concatenate(xyz), triangle=faces, group=np.concatenate(group), cell=cell,
+        names=tuple(names), notes=tuple(dict.fromkeys(notes)), bodies=tuple(found),
+    )  # fmt: skip
+
+
+def _group_names(bodies: Sequence[AttachedBody], taken: Sequence[str]) -> dict[str, str]:
+    """Give the group of each body: its name, told from a cover or a tunnel that is called so."""
+    return {
+        each.name: f"{each.name} ({each.group})" if each.name in taken else each.name
+        for each in bodies
+    }
 
 
 def mesh_of_net(
@@ -529,6 +620,7 @@ def mesh_of_net(
     points: int = 4,
     leave_out: NDArray[np.bool_] | None = None,
     tunnels: Sequence[TunnelDefinition] = (),
+    bodies: Sequence[AttachedBody] = (),
 ) -> ClosedMesh:
     """Make a closed mesh on the lines of a hull.
 
@@ -544,6 +636,8 @@ def mesh_of_net(
         Curves to do without.
     tunnels : sequence of TunnelDefinition
         Through the hull: prisms, of `_SIDES` sides to a point.
+    bodies : sequence of AttachedBody
+        Beside it: closed surfaces of their own.
 
     Returns
     -------
@@ -591,10 +685,11 @@ def mesh_of_net(
         require_closed(report, "the surface", half)
     sagitta = _sagitta(filled)
     notes = (*filled.cells.notes, *_coarse(sagitta, float(np.ptp(sheets.xyz[:, 0]))))
-    return ClosedMesh(
+    found = ClosedMesh(
         sheets.xyz, sheets.triangle, sheets.group, sheets.cell, sheets.names, half, points,
         filled.cells.count, report, sagitta, notes,
     )  # fmt: skip
+    return _with_bodies(found, bodies) if bodies else found
 
 
 def _coarse(sagitta: FloatArray, length: float) -> tuple[str, ...]:
@@ -619,22 +714,30 @@ def _sagitta(filled: FilledCells) -> FloatArray:
 
 
 def closed_mesh(
-    hull: HasState, *, half: bool = False, points: int = 4, leave_out: Sequence[str] = ()
+    hull: HasState, *, half: bool = False, points: int = 4, leave_out: Collection[str] = ()
 ) -> ClosedMesh:
     """Make a closed mesh on the lines of a hull: for panels, printing, a check of volumes.
 
     The arguments and what is raised are those of `Hull.mesh`.
     """
-    state = state_of(hull, _WHERE)
+    return mesh_of_state(state_of(hull, _WHERE), half=half, points=points, leave_out=leave_out)
+
+
+def mesh_of_state(
+    state: HullState, *, half: bool = False, points: int = 4, leave_out: Collection[str] = ()
+) -> ClosedMesh:
+    """Make a closed mesh of the tables of a hull, as `closed_mesh` does."""
     if state.failed:
         raise BadInputError("a curve has failed", _WHERE, "mend it, or take back the edit")
     net = gather_net(state)
     names = all_of(leave_out, str, "leave_out", _WHERE)
-    held = [each.name for each in state.tunnels]
+    held = {each.name for each in state.tunnels} | {each.name for each in state.bodies}
+    held -= set(net.name)
     return mesh_of_net(
         net, half=half, points=points,
         leave_out=curves_named(net, [name for name in names if name not in held]),
         tunnels=[each for each in state.tunnels if each.name not in names],
+        bodies=[each for each in state.bodies if each.name not in names],
     )  # fmt: skip
 
 

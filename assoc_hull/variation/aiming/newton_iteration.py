@@ -16,14 +16,123 @@ from __future__ import annotations
 from typing import Literal
 
 import attrs
+import numpy as np
 
+from assoc_hull.errors import AssocHullError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.aiming.broyden_update import no_curvature, updated_curvature
-from assoc_hull.variation.aiming.kkt_conditions import release_slope, unbalanced
-from assoc_hull.variation.aiming.newton_step import Way, choose_step, damp_step
+from assoc_hull.variation.aiming.kkt_conditions import multipliers, release_slope, unbalanced
+from assoc_hull.variation.aiming.quadratic_program import Quadratic, least_squares_step, split
 from assoc_hull.variation.aiming.scaled_problem import Iterate
 from assoc_hull.variation.aiming.stopping_rule import StoppingRule
 
 __all__ = ["AimStep", "End", "NewtonIteration", "iterate"]
+
+# --------------------------------------------------------------------------------------
+# One step: which way it goes, and how much of it is taken.
+
+Way = Literal["start", "exact", "nearest"]
+
+_HALVINGS = 8
+_LESS = 1e-4
+"""A step must bring this part of what it promises."""
+
+_PENALTY = 1.5
+"""How much a miss weighs against a change, in multipliers."""
+
+_FLAT = 1e-12
+"""Where a step promises less than this part of the squared misses, there is no better place."""
+
+_FIRM = 1e-6
+"""The least curvature of misses that is trusted, as a part of the largest,"""
+
+_STAYS = 0.1
+"""and that of the change itself, which is 1 without targets."""
+
+
+@attrs.frozen(eq=False)
+class WholeStep:
+    """A whole step, which way it goes, and how much a miss weighs against a change."""
+
+    step: FloatArray
+    way: Way
+    penalty: float = 0.0
+
+
+@attrs.frozen(eq=False)
+class TakenStep:
+    """A step that was taken: where it led, how much of it, what cut it short."""
+
+    place: Iterate
+    part: float
+    why: str
+
+
+def choose_step(place: Iterate, curvature: FloatArray, rule: StoppingRule) -> WholeStep | None:
+    """Give the whole step from a place; None where no step brings targets nearer."""
+    weights = multipliers(place) if rule.least else np.zeros_like(place.misses)
+    unit, (_, null) = np.eye(len(place.changes)), split(place.jacobian)
+    H = unit + np.einsum("i,ijk->jk", weights, curvature)
+    if not _firm(null.T @ H @ null, _STAYS):
+        H = unit
+    g = place.changes if rule.least else np.zeros_like(place.changes)
+    scaled = place.scaled
+    low, high = scaled.least - place.changes, scaled.most - place.changes
+    low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
+    step = Quadratic(H, g, place.jacobian, -place.misses, low, high).step()
+    if step is not None:
+        return WholeStep(step, "exact", _PENALTY * float(np.linalg.norm(weights)))
+    return _nearer(place, curvature, low, high)
+
+
+def _nearer(
+    place: Iterate, curvature: FloatArray, low: FloatArray, high: FloatArray
+) -> WholeStep | None:
+    """Give the step that makes misses least within bounds; None where they are."""
+    J, misses = place.jacobian, place.misses
+    H = J.T @ J + np.einsum("i,ijk->jk", misses, curvature)
+    g = J.T @ misses
+    enough = -_FLAT * place.size**2
+    if _firm(H, _FIRM):
+        step = Quadratic(H, g, np.zeros((0, len(g))), np.zeros(0), low, high).step()
+        if step is not None and g @ step < enough:
+            return WholeStep(step, "nearest")
+    step = least_squares_step(J, -misses, low, high)
+    return WholeStep(step, "nearest") if g @ step < enough else None
+
+
+def _firm(H: FloatArray, least: float) -> bool:
+    """Tell whether a symmetric matrix is positive, the least by a part of the largest."""
+    values = np.linalg.eigvalsh(H) if len(H) else np.ones(1)
+    return bool(values[0] > least * values[-1])
+
+
+def damp_step(place: Iterate, wish: WholeStep, rule: StoppingRule) -> TakenStep | str:
+    """Take the whole step, or halves of it until it serves; else say why none did."""
+    part, why = 1.0, ""
+    for _ in range(_HALVINGS):
+        try:
+            after = place.scaled.at(place.changes + part * wish.step)
+            if _serves(place, after, wish, part, rule):
+                return TakenStep(after, part, why)
+        except AssocHullError as error:
+            why = str(error)
+        part *= 0.5
+    return why
+
+
+def _serves(
+    place: Iterate, after: Iterate, wish: WholeStep, part: float, rule: StoppingRule
+) -> bool:
+    """Tell whether a step has brought what it should."""
+    if wish.way == "nearest":
+        promised = _LESS * part * 2.0 * float(place.jacobian.T @ place.misses @ wish.step)
+        return after.size**2 <= (1.0 + 0.1 * _FLAT) * place.size**2 + promised
+    if after.size <= (1.0 - _LESS * part) * place.size or rule.met(after):
+        return True
+    before, now = (0.5 * each.change**2 + wish.penalty * each.size for each in (place, after))
+    return rule.least and now < before
+
 
 End = Literal["met", "nearest", "blocked", "spent"]
 

@@ -1,6 +1,5 @@
 """Noise of known size is taken out of nets whose truth is known."""
 
-import os
 from collections.abc import Callable
 from functools import cache
 
@@ -10,10 +9,8 @@ import pytest
 from assoc_hull.analysis.fairness.fair_solution import estimate_noise, solve_battens
 from assoc_hull.analysis.fairness.rounding_unit import rounding_noise, rounding_unit
 from tests.conftest import Shipped
+from tests.long_forms import LONG
 from tests.noisy_nets import NoisyNet, rms, uniform_noise
-
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
-
 
 Net = Callable[[str, float], NoisyNet]
 """Gives a net by its short name, with noise of a half width in mm."""

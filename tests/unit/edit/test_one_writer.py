@@ -2,7 +2,6 @@
 
 import asyncio
 import gc
-import os
 import threading
 import time
 from collections.abc import Callable
@@ -14,9 +13,9 @@ import assoc_hull as ah
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.write_lock import WriteLock
 from assoc_hull.errors import BadInputError, HullBusyError
+from tests.long_forms import LONG
 
 POINT, OTHER = "WL 2.5 x ST 7", "WL 2.5 x ST 12"
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 
 
 @pytest.fixture

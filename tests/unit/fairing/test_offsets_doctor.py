@@ -8,8 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.fairing.offsets_doctor import ALARM, PrintedOffsets, examine
-from assoc_hull.fairing.slip_numbers import (
+from assoc_hull.fairing.offsets_doctor import (
+    ALARM,
+    PrintedOffsets,
+    examine,
     exchanged_digits,
     moved_points,
     other_digits,

@@ -10,6 +10,7 @@ from assoc_hull.analysis.fairness.unfair_places import judge_battens
 from assoc_hull.edit.net_battens import net_battens
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
+from tests.long_forms import LONG
 
 _DENTS, _SIZE, _FIRST = 100, 8.0, 5
 
@@ -26,7 +27,7 @@ def test_hulls_of_formulas_have_few_unfair_lines(
     assert all(place.ratio > 3.0 for place in table.unfair)
 
 
-@pytest.mark.parametrize("name", ["wigley", "bulk_carrier", "series60_70"])
+@pytest.mark.parametrize("name", ["series60_70", *(["wigley", "bulk_carrier"] if LONG else [])])
 def test_planted_dents_are_named(name: str, request: pytest.FixtureRequest) -> None:
     """Of 100 dents of 8 times the usual, one at a time, 90 stand among the first five places."""
     hull = ah.examples.wigley() if name == "wigley" else request.getfixturevalue(name)

@@ -21,11 +21,12 @@ OUTPUTS = ["volume", "kmt"]
 RANGES = {"breadth": (9.5, 10.5), "draught": (6.0, 6.4)}
 SCRIPT = """
 import sys
+import time
 import assoc_hull as ah
 
 drawn = ah.study.sample({"breadth": (9.5, 10.5), "draught": (6.0, 6.4)}, 24, seed=3)
 hull = ah.examples.wigley(stations=7, waterlines=5)
-say = lambda what, done, of: print(done, flush=True)
+say = lambda what, done, of: (print(done, flush=True), time.sleep(0.05))  # to be stopped in time
 hull.study(set=drawn, outputs=["volume", "kmt"], file=sys.argv[1], progress=say)
 """
 

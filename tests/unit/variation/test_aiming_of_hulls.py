@@ -91,7 +91,7 @@ def test_the_report_tells_what_was_changed(aimed: Variation) -> None:
     """Outputs with their values, and the free parameters, in the report and its text."""
     report = aimed.report.aim
     assert report is not None
-    assert report.free == ("breadth", "shifted", "fuller")
+    assert report.free == ("breadth", "fuller", "shifted")
     assert report.reached
     text = str(aimed.report)
     assert "volume 2773.92 -> 2801.66" in text
@@ -265,3 +265,17 @@ def test_what_some_hull_has_can_be_reached(wider: float, shifted: float, fuller:
     for _ in hull.history:
         hull.undo()
     assert hull.fingerprint == before
+
+
+def test_the_order_of_targets_and_of_what_is_free_changes_no_bit() -> None:
+    """As that of set values: in `vary`, in its report and in the rows of a study."""
+    hull = ah.examples.wigley(stations=9, waterlines=6)
+    now = hull.hydrostatics(estimate=False)
+    reach = {"volume": 1.01 * now.volume, "lcb": now.lcb - 0.3}
+    free = ["breadth", "fore_shift", "aft_shift"]
+    ways = [(reach, free), (dict(reversed(reach.items())), free[::-1])]
+    made = [hull.vary(reach=to, free=by, name="x") for to, by in ways]
+    assert made[0].hull.fingerprint == made[1].hull.fingerprint
+    assert str(made[0].report) == str(made[1].report)
+    rows = [hull.study(reach=to, free=by, outputs=["cb"]) for to, by in ways]
+    assert rows[0].to_json() == rows[1].to_json()

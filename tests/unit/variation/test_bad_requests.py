@@ -30,6 +30,7 @@ from assoc_hull.variation.parameters.parent import parent_of
 from assoc_hull.variation.parameters.value_limits import hull_box, present_values
 from assoc_hull.variation.request import TOLERANCE
 from tests.conftest import Shipped
+from tests.long_forms import long_form
 
 Given = dict[str, Any]
 
@@ -180,7 +181,13 @@ FOLDS = {
 """Values that fold the carrier, and what else the message says."""
 
 
-@pytest.mark.parametrize("case", FOLDS)
+SLOW = ("a bilge too large", "a stem that leans back")
+"""Both are tried in up to eight parts before they are refused."""
+
+
+@pytest.mark.parametrize(
+    "case", [pytest.param(case, marks=long_form if case in SLOW else ()) for case in FOLDS]
+)
 def test_a_value_that_folds_is_told_with_its_interval(
     bulk_carrier: ah.Hull, room: AdmissibleValues, case: str
 ) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import os
 from collections.abc import Callable
 
 import pytest
@@ -20,9 +19,8 @@ from assoc_hull.variation.parameters.stages import (
     refined_plan,
     single_plan,
 )
+from tests.long_forms import LONG, long_form
 from tests.variation_sets import outcome
-
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 
 
 @pytest.fixture(scope="module")
@@ -179,9 +177,9 @@ def test_set_and_reach_are_one_problem(parent: ah.Hull, asked: dict[str, float])
 @pytest.mark.parametrize(
     ("values", "parts"),
     [
-        ({"shaft_height": 6.0}, 4),
+        pytest.param({"shaft_height": 6.0}, 4, marks=long_form),
         ({"bossing_radius": 1.0}, 2),
-        ({"shaft_height": 6.0, "bossing_radius": 1.0}, 1),
+        pytest.param({"shaft_height": 6.0, "bossing_radius": 1.0}, 1, marks=long_form),
     ],
 )
 def test_the_form_of_the_paper_is_carried_in_parts(

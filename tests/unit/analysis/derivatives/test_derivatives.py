@@ -38,6 +38,7 @@ from assoc_hull.errors import (
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.hull import Hull
+from tests.long_forms import LONG
 from tests.stepped import Floats
 
 HULLS = {
@@ -168,7 +169,8 @@ def test_they_are_those_of_central_differences(
     wrt = parameters(name, hull)
     floats, _ = at(hull, where)
     found = derivatives(hull, wrt, where)
-    for k in {"wigley": range(len(wrt)), "carrier": (3, 4, 8)}.get(name, (0, 3, 5, 6)):
+    of = {"wigley": range(len(wrt)), "carrier": (3, 4, 8)}.get(name, (0, 3, 5, 6))
+    for k in of if LONG else of[-2:]:
         step = {"heel": 3e-4, "stretch": 3e-6}.get(wrt[k].title, 1e-5 * hull.particulars.draught)
         agree(hull, found, k, wrt[k], floats.central(wrt[k], step), 1e-7)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -22,9 +21,9 @@ from assoc_hull.errors import (
 )
 from assoc_hull.model.address import address
 from tests.conftest import Shipped
+from tests.long_forms import LONG
 from tests.noisy_nets import error_left, put_noise, rms, sign_changes
 
-LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 WIDTH = 5e-3
 NOISE = WIDTH / np.sqrt(3.0)
 SHIPS = ["wigley", "series60_70", *(["bulk_carrier"] if LONG else [])]

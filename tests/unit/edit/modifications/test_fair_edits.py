@@ -23,6 +23,7 @@ from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.tables import HullState
 from tests.conftest import Shipped
+from tests.long_forms import long_form
 from tests.taken_back import taken_back
 
 _SPAN = (-3.75, 30.0)
@@ -280,8 +281,10 @@ def test_what_is_so_already_is_no_step(amounts: tuple[float, ...]) -> None:
     assert hull.fingerprint == before
 
 
-@pytest.mark.parametrize("amount", [0.02, 0.05])
-@pytest.mark.parametrize("name", ["BTK 0.84 x ST 15.5", "BTK 0.76 x ST 15.5"])
+@pytest.mark.parametrize("amount", [0.02, pytest.param(0.05, marks=long_form)])
+@pytest.mark.parametrize(
+    "name", ["BTK 0.84 x ST 15.5", pytest.param("BTK 0.76 x ST 15.5", marks=long_form)]
+)
 def test_a_carried_crossing_comes_as_far_as_it_is_pulled(
     fresh_series60_70: Hull, name: str, amount: float
 ) -> None:

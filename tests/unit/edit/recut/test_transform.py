@@ -24,6 +24,7 @@ from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.shipped.wigley import wigley_half_breadth
 from tests.independent import lost_meetings, trouble
+from tests.long_forms import long_form
 from tests.net_strategies import refused
 from tests.taken_back import taken_back
 
@@ -255,7 +256,7 @@ def hump(xyz: FloatArray) -> FloatArray:
     return np.column_stack([x, y, z + rise])
 
 
-@pytest.mark.parametrize("name", ["WL 0.625", "WL 0.075"])
+@pytest.mark.parametrize("name", ["WL 0.625", pytest.param("WL 0.075", marks=long_form)])
 def test_a_line_falls_into_pieces(
     fresh_wigley: ah.Hull, fresh_series60_70: ah.Hull, name: str
 ) -> None:

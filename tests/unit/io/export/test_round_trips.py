@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,6 +10,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.errors import NotSoundError
+from tests.long_forms import long_form
 from tests.round_trips import (
     FORMS,
     HULLS,
@@ -21,8 +21,6 @@ from tests.round_trips import (
     round_trip,
     round_trips,
 )
-
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 
 
 def test_the_wigley_hull_comes_back_from_tables_and_sections(tmp_path: Path) -> None:
@@ -72,7 +70,7 @@ def test_sections_that_part_are_told_at_export_and_at_import(
     assert any(told in each for each in refused.value.findings)
 
 
-@pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")
+@long_form
 @pytest.mark.parametrize("name", HULLS)
 def test_each_hull_comes_back_from_each_form(name: str) -> None:
     """Within what the form allows for; what it cannot hold is in the report of the export."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import random
 import shutil
 import signal
@@ -19,8 +18,8 @@ import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, DamagedFileError, HullFileError, StaleHullError
 from assoc_hull.io.hull_file.storage import HullFile
 from assoc_hull.io.open_databases import log_file
+from tests.long_forms import LONG
 
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 POINT = "WL 4.6875 x ST 3"
 
 

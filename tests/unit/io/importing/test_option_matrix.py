@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import attrs
@@ -12,9 +11,10 @@ from assoc_hull.cli import main
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.importing import import_hull
 from assoc_hull.io.importing.options import ImportOptions
+from tests.long_forms import LONG
 from tests.option_matrix import CHEAP, KINDS, OPTIONS, fate
 
-TRIED = tuple(KINDS) if os.environ.get("ASSOC_HULL_LONG") else CHEAP
+TRIED = tuple(KINDS) if LONG else CHEAP
 
 
 @pytest.fixture(scope="module", params=TRIED)

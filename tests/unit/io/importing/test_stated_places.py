@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -11,6 +10,7 @@ import pytest
 
 import assoc_hull as ah
 from tests.foreign_hulls import as_of_others, write_lines
+from tests.long_forms import LONG
 
 SAID = "Lpp = 97.5 m, B = 9.9 m, T = 6.0 m"
 
@@ -67,7 +67,6 @@ def dxf_text(folder: Path, said: str) -> Path:
     return path
 
 
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 FORMS: dict[str, Callable[[Path, str], Path]] = {
     "csv": csv, "britfair": britfair, "gf": gf, "dxf comment": dxf_comment, "dxf text": dxf_text,
 }  # fmt: skip

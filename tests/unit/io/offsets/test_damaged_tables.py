@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections import Counter
 from collections.abc import Sequence
@@ -25,8 +24,8 @@ from tests.damaged_tables import (
     volume,
     wigley_table,
 )
+from tests.long_forms import LONG, long_form
 
-LONG = bool(os.environ.get("ASSOC_HULL_LONG"))
 MOST_OFF = 0.005
 
 
@@ -81,7 +80,7 @@ def test_damages_of_shipped_tables_are_seen_where_they_are() -> None:
     check([wigley_table(), series60_table("060"), series60_table("070")], 54, 15)
 
 
-@pytest.mark.skipif(not LONG, reason="takes a minute: set ASSOC_HULL_LONG=1")
+@long_form
 def test_damages_of_all_tables_are_seen_where_they_are(data_folder: Path, tmp_path: Path) -> None:
     """Three hundred damages of seven tables; volumes from the table itself."""
     tables = [wigley_table(), series60_table("060"), series60_table("070")]
@@ -119,7 +118,7 @@ def test_damages_are_seen_by_who_reads_a_hull() -> None:
     assert rates.unharmed["clean"] == 3 + len(tables)
 
 
-@pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")
+@long_form
 def test_two_hundred_damages_are_seen_by_who_reads_a_hull(
     data_folder: Path, tmp_path: Path
 ) -> None:

@@ -1,6 +1,5 @@
 """Barges as meshes: flat sides, square corners and end plates come in exactly."""
 
-import os
 from pathlib import Path
 from typing import Any
 
@@ -10,10 +9,10 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.geometry.surfaces.triangles import Triangles, grid_triangles, merge_vertices
 from tests import meshes
+from tests.long_forms import long_form
 
 LENGTH, BREADTH, DEPTH, DRAUGHT = 60.0, 12.0, 4.0, 2.5
 CUTS: dict[str, Any] = {"stations": 7, "waterlines": 3, "buttocks": 3}
-LONG = pytest.mark.skipif("ASSOC_HULL_LONG" not in os.environ, reason="takes a quarter of a minute")
 
 
 def barge(rake: float, foot: float, cells: int) -> Triangles:
@@ -53,9 +52,9 @@ def volume(rake: float, foot: float) -> float:
     ("rake", "foot", "cells", "cuts"),
     [
         pytest.param(20.0, 0.0, 1, CUTS, id="box of few triangles"),
-        pytest.param(20.0, 0.0, 6, CUTS, id="box of many triangles", marks=LONG),
-        pytest.param(8.0, 0.8, 1, {}, id="slight rakes", marks=LONG),
-        pytest.param(8.0, 3.0, 6, {}, id="rakes through the water", marks=LONG),
+        pytest.param(20.0, 0.0, 6, CUTS, id="box of many triangles", marks=long_form),
+        pytest.param(8.0, 0.8, 1, {}, id="slight rakes", marks=long_form),
+        pytest.param(8.0, 3.0, 6, {}, id="rakes through the water", marks=long_form),
     ],
 )
 def test_a_barge_comes_in_right(

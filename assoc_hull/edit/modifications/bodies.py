@@ -1,0 +1,175 @@
+"""Bodies beside the net: put there, moved, given another shape. No line moves."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import attrs
+import numpy as np
+from numpy.typing import ArrayLike
+
+from assoc_hull.arguments import flag, number, numbers, pair, place, places, shown, word
+from assoc_hull.edit.arguments import line_name
+from assoc_hull.edit.modifications.attachments import held_by_name, put, refuse_taken
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.model.attached_body import AttachedBody
+
+__all__ = ["BodyShape", "add_body", "set_body"]
+
+
+@attrs.frozen
+class BodyShape:
+    """What was given of the shape of a body; None where nothing was."""
+
+    sections: ArrayLike | None = None
+    x: ArrayLike | None = None
+    y: ArrayLike | None = None
+    z: ArrayLike | None = None
+    corners: ArrayLike | None = None
+    both: bool | None = None
+    sign: float | None = None
+
+    @property
+    def placed(self) -> bool:
+        """Whether a place was given."""
+        return any(each is not None for each in (self.sections, self.x, self.y, self.z))
+
+    @property
+    def given(self) -> bool:
+        """Whether anything was."""
+        rest = self.corners, self.both, self.sign
+        return self.placed or any(each is not None for each in rest)
+
+
+def add_body(edit: Transaction, name: str, group: str, shape: BodyShape) -> None:
+    """Put a body beside the net.
+
+    Raises
+    ------
+    NameTakenError
+        Something else has the name.
+    BadInputError
+        It has no shape, two of them, or encloses nothing.
+    """
+    where = "in body"
+    refuse_taken(edit.state, name)
+    if shape.sections is None and (shape.x is None or shape.y is None or shape.z is None):
+        raise BadInputError(f"{name!r} has no shape", where, "give x, y and z, or sections")
+    put(edit, None, _shaped(name, group, shape, None, where))
+
+
+def set_body(
+    edit: Transaction, name: str, by: ArrayLike | None, group: str | None, shape: BodyShape
+) -> None:
+    """Move a body, or give it another group or shape.
+
+    Raises
+    ------
+    UnknownNameError
+        There is none of that name.
+    BadInputError
+        As for `add_body`; or nothing is given, or a movement and a new place.
+    """
+    where, old = "in set_body", held_by_name(edit.state, AttachedBody, name)
+    if by is None and group is None and not shape.given:
+        what = f"nothing is given for {old.name!r}"
+        raise BadInputError(what, where, "give by, group, x, y, z, sections, corners, both or sign")
+    if by is not None and shape.placed:
+        raise BadInputError("both by and a new place are given", where, "give one of them")
+    new = _shaped(old.name, old.group if group is None else group, shape, old, where)
+    if by is not None:
+        new = _sound(attrs.evolve(new, sections=new.points + place(by, "by", where)), where)
+    put(edit, old, new)
+
+
+def _shaped(
+    name: str, group: str, shape: BodyShape, old: AttachedBody | None, where: str
+) -> AttachedBody:
+    """Make a body of what was given, and of one that there was."""
+    box = {axis: getattr(shape, axis) for axis in "xyz"}
+    given = {axis: each for axis, each in box.items() if each is not None}
+    if given and shape.sections is not None:
+        what = f"both sections and {', '.join(given)} are given"
+        raise BadInputError(what, where, "give sections, or a box by x, y and z")
+    if shape.sections is not None:
+        points = _rings(shape.sections, where)
+    elif old is not None:
+        points = _stretched(old.points, given, where)
+    else:
+        points = _box(given, where)
+    if shape.corners is not None:
+        corners = _corners(shape.corners, points.shape[1], where)
+    elif old is not None and old.points.shape[1] == points.shape[1]:
+        corners = old.corners
+    else:
+        corners = tuple(range(points.shape[1]))
+    before = 1 if old is None else old.sign
+    sign = before if shape.sign is None else number(shape.sign, "sign", where)
+    if sign not in (1, -1):
+        what = f"sign is {shown(shape.sign)}"
+        raise BadInputError(what, where, "give 1 for what stands on the hull, -1 for what is taken")
+    both = (old is not None and old.both) if shape.both is None else flag(shape.both, "both", where)
+    called = line_name(word(group, "the group", where))
+    return _sound(AttachedBody(name, called, points, corners, both, int(sign)), where)
+
+
+def _rings(sections: ArrayLike, where: str) -> FloatArray:
+    """Take closed sections, (k, m, 3), m."""
+    try:
+        found = np.asarray(sections, np.float64)
+    except (TypeError, ValueError):
+        found = np.zeros(0)
+    if found.ndim != 3 or found.shape[2] != 3 or found.shape[0] < 2 or found.shape[1] < 3:
+        remedy = "give two or more from aft forward, each of as many points (x, y, z), at least 3"
+        raise BadInputError(f"sections are {shown(sections)}", where, remedy)
+    return places(found.reshape(-1, 3), "sections", where).reshape(found.shape)
+
+
+def _box(given: dict[str, ArrayLike], where: str) -> FloatArray:
+    """Make the two sections of a box."""
+    (x0, x1), (y0, y1), (z0, z1) = (
+        pair(given[axis], axis, where, positive=False) for axis in "xyz"
+    )
+    ring = [(y0, z0), (y1, z0), (y1, z1), (y0, z1)]
+    return np.array([[(x, y, z) for y, z in ring] for x in (x0, x1)])
+
+
+def _stretched(points: FloatArray, given: dict[str, ArrayLike], where: str) -> FloatArray:
+    """Stretch a body so that it reaches from one place to another along some axes."""
+    found = points.copy()
+    for axis, asked in given.items():
+        low, high = pair(asked, axis, where, positive=False)
+        part = found[:, :, "xyz".index(axis)]
+        least, most = float(part.min()), float(part.max())
+        # A box keeps its very numbers: low at its low side, high at its high one.
+        part[:] = np.where(
+            part == most, high, low + (part - least) * ((high - low) / (most - least or 1.0))
+        )
+    return found
+
+
+def _corners(given: ArrayLike, count: int, where: str) -> tuple[int, ...]:
+    found = np.atleast_1d(numbers(given, "corners", where)).ravel().tolist()
+    if any(each != int(each) or not 0 <= each < count for each in found):
+        remedy = f"give numbers of points of a section: 0 to {count - 1}"
+        raise BadInputError(f"corners are {shown(given)}", where, remedy)
+    return tuple(sorted({int(each) for each in found}))
+
+
+def _sound(body: AttachedBody, where: str) -> AttachedBody:
+    """Take a body that encloses something, its sections from aft forward, on one side of two."""
+    points = body.points
+    for k, (one, next_) in enumerate(pairwise(points[:, :, 0].mean(axis=1).tolist())):
+        if not one < next_:
+            what = f"section {k + 1} of {body.name!r} lies at x {next_:.6g} m, behind {one:.6g} m"
+            raise BadInputError(what, where, "give sections from aft forward")
+    if not body.flux > 0.0:
+        what = f"{body.name!r} encloses {body.flux:.6g} m3"
+        raise BadInputError(what, where, "give sections that enclose an area and do not cross")
+    low, high = float(points[..., 1].min()), float(points[..., 1].max())
+    if body.both and low < 0.0 < high:
+        what = f"{body.name!r} stands from y {low:.6g} to {high:.6g} m: its mirror image is in it"
+        raise BadInputError(what, where, "leave both out, or keep it on one side")
+    return body
