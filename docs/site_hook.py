@@ -15,6 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 JOINED = ("CHANGELOG.md", "CONTRIBUTING.md")
 TABLES = (
     "catalogue",
+    "hull_file_columns",
     "hydrostatic_values",
     "named_parameters",
     "commands",

@@ -61,6 +61,7 @@ def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) ->
         ("variation_figures.md", "| bilge_radius | 3 |"),
         ("features_of_lines.md", "| `ArcRule` |"),
         ("table5.md", "| `KMT` |"),
+        ("file_format.md", "| `gap_limit` |"),
     ],
     ids=[
         "form parameters",
@@ -70,6 +71,7 @@ def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) ->
         "figures of the parameters",
         "thresholds",
         "table 5",
+        "columns of the hull file",
     ],
 )
 def test_tables_that_are_made_from_the_code_stand_on_the_site(name: str, entry: str) -> None:
