@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from assoc_hull.model.line_source import LineSource
     from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
     from assoc_hull.model.tables import Association, Ends, Particulars
+    from assoc_hull.page.widget import widget
     from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -60,6 +61,7 @@ __all__ = [
     "study",
     "surface",
     "variation",
+    "widget",
 ]
 
 __version__ = "0.1.0"
@@ -91,6 +93,7 @@ _PUBLIC: dict[str, dict[str, tuple[str, ...]]] = {
             "Ends",
             "Particulars",
         ),
+        "page.widget": ("widget",),
         "tolerance": ("Tolerances",),
     },
     "variation": {

@@ -20,7 +20,7 @@ from assoc_hull.page.session import Session
 if TYPE_CHECKING:
     import uvicorn
 
-__all__ = ["PageServer", "serve"]
+__all__ = ["PageServer", "serve", "user_name"]
 
 _HOST = "127.0.0.1"
 _LONGEST = 1 << 20  # bytes of a message
@@ -107,7 +107,7 @@ class PageServer:
 
             hull = open_hull(hull)
         self.hull = instance(hull, Hull, "hull", "in serve")
-        self.author = _user() if author is None else text(author, "author", "in serve")
+        self.author = user_name() if author is None else text(author, "author", "in serve")
         self.address = ""
         self._port = port
         self._session: Session | None = None
@@ -179,7 +179,8 @@ def _listen(port: int) -> socket.socket:
     return found
 
 
-def _user() -> str:
+def user_name() -> str:
+    """Give the name of who is logged in, to sign edits by."""
     try:
         return getpass.getuser()
     except (OSError, KeyError):

@@ -93,20 +93,26 @@ class _Gesture:
     let_go: bool = False
 
 
+_Job = tuple[Client, Message | None]
+_IDLE: _Job = None, None  # type: ignore[assignment]
+_LOOK_AGAIN = 0.2  # s
+
+
 class Session:
     """A hull that pages show and edit; `close` ends its thread.
 
     Parameters
     ----------
     hull : Hull
-        The hull; nobody else may edit it while the session lives.
+        The hull. What others make of it in this process, as a cell of a notebook does, is shown as
+        soon as the worker is idle.
     """
 
     def __init__(self, hull: Hull) -> None:
         self.hull = hull
         self._clients = list[Client]()
         self._gesture: _Gesture | None = None
-        self._jobs = deque[tuple[Client, Message | None]]()
+        self._jobs = deque[_Job]()
         self._awake = threading.Condition()
         self._open = True
         self._reader = ThreadPoolExecutor(1, "assoc-hull page reader")
@@ -114,6 +120,7 @@ class Session:
         self._writer = ThreadPoolExecutor(1, "assoc-hull page writer")
         self._newest = dict[tuple[Client, type[Message]], int]()
         self._opening = hull.snapshot()
+        self._shown = hull.state_number
         self._faults = 0
         self._worker = threading.Thread(target=self._work, name="assoc-hull page", daemon=True)
         self._worker.start()
@@ -162,6 +169,9 @@ class Session:
 
     def _work(self) -> None:
         while (job := self._next()) is not None:
+            self._show_others()
+            if job is _IDLE:
+                continue
             client, message = job
             if message is None:
                 self._forget(client)
@@ -170,10 +180,23 @@ class Session:
                 self._acts[type(message)](self, client, message)
         self._end_gesture()
 
-    def _next(self) -> tuple[Client, Message | None] | None:
+    def _next(self) -> _Job | None:
+        """Wait for a job; `_IDLE` where none came, None at the end."""
         with self._awake:
-            self._awake.wait_for(lambda: self._jobs or not self._open)
-            return self._jobs.popleft() if self._jobs and self._open else None
+            self._awake.wait_for(lambda: self._jobs or not self._open, _LOOK_AGAIN)
+            if not self._open:
+                return None
+            return self._jobs.popleft() if self._jobs else _IDLE
+
+    def _show_others(self) -> None:
+        """Show what others have made of the hull in this process since it was shown last."""
+        if self.hull.state_number == self._shown:
+            return
+        self._end_gesture()  # it was begun on another hull
+        try:
+            self._publish(self._shown)
+        except AssocHullError:  # the other one goes on meanwhile: it is looked at again
+            _LOG.exception("another edit could not be shown")
 
     @contextlib.contextmanager
     def _told(self, client: Client, message: Message) -> Iterator[None]:
@@ -485,6 +508,7 @@ class Session:
 
     def _publish(self, before: int) -> None:
         """Tell everybody what has changed since a state."""
+        self._shown = self.hull.state_number
         changed, state = self.hull.since(before), self.hull.state
         if changed.structural:
             self._tell_net(self._clients)

@@ -17,11 +17,12 @@ export class Keys {
     this.timer = undefined;
     this.burst = false;
     this.sum = [0, 0, 0];
-    // Also where a button that had the focus is no longer there to have it.
+    // Also where a button that had the focus is no longer there to have it; not within a notebook.
+    const signal = page.options.within;
     page.root.ownerDocument.addEventListener("keydown", (event) => {
       const at = event.target, own = at instanceof Node && page.root.contains(at);
-      if (own || at === page.root.ownerDocument.body) this.#down(event);
-    });
+      if (own || (!signal && at === page.root.ownerDocument.body)) this.#down(event);
+    }, {signal});
   }
 
   /** @param {KeyboardEvent} event */

@@ -20,7 +20,7 @@ import {alongCurve} from "./lists.js";
 /** @typedef {import("./view.js").Kind} Kind */
 /** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */
 /** @typedef {{send: (message: object) => void}} Link */
-/** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null}} Options */
+/** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, within?: AbortSignal}} Options */
 
 const KINDS = /** @type {Kind[]} */ (["body", "profile", "half", "wire"]);
 
@@ -78,9 +78,11 @@ export class Page {
     this.store.listeners.add((what) => this.#stale(what));
     this.#restore();
     this.dress();
-    new ResizeObserver(() => this.#stale("hull")).observe(views);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.dress());
-    addEventListener("blur", () => this.letGo());
+    const sizes = new ResizeObserver(() => this.#stale("hull")), signal = options.within;
+    sizes.observe(views);
+    signal?.addEventListener("abort", () => sizes.disconnect());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.dress(), {signal});
+    addEventListener("blur", () => this.letGo(), {signal});
     this.link = options.connect({
       open: () => this.link.send({t: "hello", version: VERSION, token: options.token, author: this.store.author}),
       text: (text) => this.#told(JSON.parse(text)),
@@ -148,7 +150,7 @@ export class Page {
       hand.drop();
       store.adopt(net, frame);
       this.dropGhost();
-      this.root.ownerDocument.title = `${net.particulars.name} – fairing page`;
+      if (!this.options.within) this.root.ownerDocument.title = `${net.particulars.name} – fairing page`;
       this.bar.name(net.particulars, net.lines.length, net.points.size);
       if (first) this.fit();
     } else if (frame.kind === LIVE) {

@@ -1,0 +1,119 @@
+"""The widget of a hull: what a notebook shows, and messages between its page and the session."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from typing import Any
+
+import anywidget
+import traitlets
+
+from assoc_hull.hull.hull import Hull
+from assoc_hull.model.objects import Point
+from assoc_hull.page.app import family_colours
+from assoc_hull.page.joined import joined_modules, scoped_styles
+from assoc_hull.page.widget import SharedSession, View
+
+__all__ = ["HullWidget"]
+
+_STATIC = files("assoc_hull.page").joinpath("static")
+_LONGEST_NAME = 40
+_STILL = "assoc-hull-still"
+
+
+def _script() -> str:
+    modules = {
+        each.name.removesuffix(".js"): each.read_text("utf-8")
+        for each in _STATIC.iterdir()
+        if each.name.endswith(".js")
+    }
+    return joined_modules(modules, "widget", ("render",))
+
+
+def _styles() -> str:
+    sheet = _STATIC.joinpath("page.css").read_text("utf-8") + family_colours()
+    # While the widget lives it stands in the place of the picture that is kept with the notebook.
+    hidden = f".jp-OutputArea:has(.assoc-hull-widget) .{_STILL} {{ display: none; }}\n"
+    return scoped_styles(sheet, "assoc-hull-widget") + hidden
+
+
+class HullWidget(anywidget.AnyWidget):  # type: ignore[misc]  # it has no types
+    """A hull in a notebook; `assoc_hull.widget` makes it.
+
+    Attributes
+    ----------
+    hull : Hull
+        What it shows and edits.
+    """
+
+    _esm = _script()
+    _css = _styles()
+    _height = traitlets.Int(720).tag(sync=True)
+    _author = traitlets.Unicode("").tag(sync=True)
+    _shared: SharedSession | None = None
+
+    def __init__(self, hull: Hull, *, height: int, author: str) -> None:
+        super().__init__(_height=height, _author=author)
+        self.hull = hull
+        self._shared = SharedSession.take(hull)
+        self._views = dict[str, View]()
+        self._row: int | None = None
+        self.on_msg(self._take)
+
+    @property
+    def selection(self) -> Point | None:
+        """The point that was chosen last; None where none is, or it is gone."""
+        rows = self.hull.state.rows
+        if self._row is None or self._row >= rows.count or not rows.alive[self._row]:
+            return None
+        return Point.of(self.hull.state, self._row)
+
+    def _take(self, _: object, content: Any, buffers: object) -> None:
+        """Take what a view says; views are known by the names that they give themselves."""
+        del buffers
+        if self._shared is None or not isinstance(content, dict):
+            return
+        name = content.get("view")
+        if not isinstance(name, str) or not 0 < len(name) <= _LONGEST_NAME:
+            return
+        if "row" in content:
+            row = content["row"]
+            self._row = row if isinstance(row, int) and row >= 0 else None
+        elif content.get("gone"):
+            gone = self._views.pop(name, None)
+            if gone is not None:
+                gone.leave()
+        else:
+            view = self._views.get(name)
+            if view is None:
+                view = self._views[name] = View(name, self._shared.session, self._tell)
+            view.take(content.get("text"))
+
+    def _tell(self, content: dict[str, object], buffers: list[bytes]) -> None:
+        self.send(content, buffers=buffers or None)
+
+    def close(self) -> None:
+        """End the widget; the hull stays as it is."""
+        if self._shared is not None:
+            for view in self._views.values():
+                view.leave()
+            self._views.clear()
+            self._shared.give_back()
+            self._shared = None
+        super().close()
+
+    def _ipython_display_(self) -> None:
+        """Show a picture that a saved notebook keeps, and the living widget in its place."""
+        from IPython.display import display
+
+        if self._shared is None:
+            display(self.hull)
+            return
+        still = self.hull._repr_mimebundle_()
+        told = {
+            "text/plain": still["text/plain"],
+            "text/html": f'<div class="{_STILL}">{still["text/html"]}</div>',
+        }
+        display(told, raw=True)
+        found = self._repr_mimebundle_()
+        display(found[0] if isinstance(found, tuple) else found, raw=True)

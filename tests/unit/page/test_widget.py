@@ -1,0 +1,139 @@
+"""The widget of a hull, without a browser: its session, its views, what it refuses."""
+
+import builtins
+import json
+import time
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.errors import AssocHullError, MissingExtraError
+from assoc_hull.page.messages import parse
+from assoc_hull.page.widget import SharedSession, View
+from assoc_hull.page.wire import VERSION
+
+POINT = "WL 2.5 x ST 7"
+
+
+class Told:
+    """What a view was sent."""
+
+    def __init__(self) -> None:
+        self.texts = list[dict[str, Any]]()
+        self.frames = 0
+
+    def __call__(self, content: dict[str, object], buffers: list[bytes]) -> None:
+        """Take a message."""
+        self.frames += len(buffers)
+        if "text" in content:
+            self.texts.append(json.loads(str(content["text"])))
+
+    def until(self, wanted: Callable[["Told"], bool]) -> None:
+        """Wait for what the worker sends."""
+        end = time.monotonic() + 20.0
+        while not wanted(self):
+            assert time.monotonic() < end, [each["t"] for each in self.texts]
+            time.sleep(0.01)
+
+    def has(self, kind: str) -> bool:
+        """Tell whether a message of a kind came."""
+        return any(each["t"] == kind for each in self.texts)
+
+
+def hello(version: int = VERSION) -> str:
+    """The first message of a view."""
+    return json.dumps({"t": "hello", "version": version, "token": "none", "author": "anna"})
+
+
+@pytest.fixture
+def hull() -> ah.Hull:
+    """A hull of few lines."""
+    return ah.examples.wigley(stations=5, waterlines=4)
+
+
+def test_what_a_cell_does_is_shown_in_a_view(hull: ah.Hull) -> None:
+    """The session looks for edits of others; nobody asks it to."""
+    shared, told = SharedSession.take(hull), Told()
+    view = View("a", shared.session, told)
+    view.take(hello())
+    told.until(lambda each: each.has("state"))
+    seen = told.frames
+    with hull.edit("in a cell") as edit:
+        edit.move("WL 4.16667 x ST 2", y=hull["WL 4.16667 x ST 2"].y + 0.01)
+    told.until(lambda each: each.frames > seen)
+    shared.give_back()
+
+
+def test_widgets_of_one_hull_share_its_session_until_the_last_has_gone(hull: ah.Hull) -> None:
+    """As windows of the page do; a widget that comes later begins another one."""
+    one, two = SharedSession.take(hull), SharedSession.take(hull)
+    assert one is two
+    one.give_back()
+    assert SharedSession.take(hull) is two
+    two.give_back()
+    two.give_back()
+    other = SharedSession.take(hull)
+    assert other is not one
+    other.give_back()
+
+
+@pytest.mark.parametrize("given", [None, 7, "", "{}", '{"t": "undo"', hello(version=99)])
+def test_what_is_no_message_is_answered_by_a_sentence(hull: ah.Hull, given: object) -> None:
+    """And the view goes on."""
+    shared, told = SharedSession.take(hull), Told()
+    view = View("a", shared.session, told)
+    view.take(given)
+    assert [each["t"] for each in told.texts] == ["problem"]
+    assert told.texts[0]["text"]
+    view.take(hello())
+    told.until(lambda each: each.has("session"))
+    shared.give_back()
+
+
+@pytest.mark.parametrize(
+    "given",
+    [{"height": 10}, {"height": 600.5}, {"height": "600"}, {"author": ""}, {"author": 7}],
+)
+def test_bad_arguments_are_errors_of_the_family(hull: ah.Hull, given: dict[str, Any]) -> None:
+    """Before anything is made."""
+    with pytest.raises(AssocHullError):
+        ah.widget(hull, **given)
+
+
+def test_no_hull_is_an_error_of_the_family() -> None:
+    """A path is for the page."""
+    with pytest.raises(AssocHullError):
+        ah.widget("ship.hull")  # type: ignore[arg-type]
+
+
+def test_a_missing_extra_is_named(hull: ah.Hull, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the command that installs it."""
+    real = builtins.__import__
+
+    def lacking(name: str, *rest: Any) -> Any:
+        if name.startswith(("anywidget", "assoc_hull.page.notebook_widget")):
+            raise ImportError(name=name)
+        return real(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", lacking)
+    with pytest.raises(MissingExtraError, match="jupyter"):
+        ah.widget(hull)
+
+
+def test_a_message_of_the_page_is_parsed_as_from_a_socket() -> None:
+    """There is one protocol."""
+    assert parse(hello()).author == "anna"  # type: ignore[union-attr]
+
+
+def test_a_widget_ends_and_leaves_the_hull(hull: ah.Hull) -> None:
+    """Closed twice is closed once; the hull is edited as before."""
+    pytest.importorskip("anywidget")
+    shown = ah.widget(hull, height=300, author="anna")
+    assert shown.selection is None
+    shown.close()
+    shown.close()
+    with hull.edit("after") as edit:
+        edit.move("WL 4.16667 x ST 2", y=hull["WL 4.16667 x ST 2"].y + 0.01)
+    assert len(hull.history) == 1
