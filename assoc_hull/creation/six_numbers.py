@@ -434,7 +434,8 @@ def _waterline_notes(design: Design, six: SixNumbers, given: bool) -> list[Desig
 # Lines.
 
 _BUTTOCKS = (0.15, 0.3, 0.45, 0.6, 0.75, 0.88)
-"""In parts of half the breadth; away from corners of usual transoms."""
+"""In parts of half the breadth; away from corners of usual transoms. With a bulb, the first would
+graze its side, where it says nothing, and is left out."""
 
 
 def _lines(design: Design, parent: Design) -> Design:
@@ -455,7 +456,7 @@ def _lines(design: Design, parent: Design) -> Design:
     return attrs.evolve(
         design,
         stations=tuple(stations), waterlines=tuple(heights),
-        buttocks=tuple(round(0.5 * ship.breadth * each, digits) for each in _BUTTOCKS),
+        buttocks=tuple(round(0.5 * ship.breadth * each, digits) for each in _BUTTOCKS[bulb:]),
     )  # fmt: skip
 
 

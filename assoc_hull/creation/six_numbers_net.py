@@ -14,6 +14,7 @@ import numpy as np
 from assoc_hull.creation.area_swing import half_sums
 from assoc_hull.creation.design import Design
 from assoc_hull.creation.design_net import build_net, straighten_on_flat
+from assoc_hull.creation.fair_courses import fair_courses
 from assoc_hull.creation.six_numbers import DesignNote, TypedDesign
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.edit.document import Document
@@ -43,12 +44,16 @@ _SHIFTS = (0.0, 0.03, -0.03, 0.06, -0.06)
 """Of the draught or of half the breadth: where else a line is tried."""
 
 
-def build_typed(typed: TypedDesign) -> tuple[HullState, AdoptionReport, TypedDesign]:
+def build_typed(
+    typed: TypedDesign, *, solve: bool = True
+) -> tuple[HullState, AdoptionReport, TypedDesign]:
     """Make the net; also give the report of adoption, and the design with what was mended.
+
+    `solve` says whether courses of sections are solved before, so that these are fair.
 
     Raises BadInputError or OutOfRangeError where a section cannot be made after all that.
     """
-    design, notes, state, report = _with_room(typed.design)
+    design, notes, state, report = (_fair if solve else _with_room)(typed.design)
     forms = Forms.of(design.definitions, design.particulars)
     document = Document(state)
 
@@ -108,13 +113,31 @@ def _lowest(state: HullState, curve: int) -> float:
     return min(float(sample(spline, _PLACES)[1][:, 2].min()), 0.0)
 
 
+def _fair(design: Design) -> tuple[Design, list[DesignNote], HullState, AdoptionReport]:
+    """Make boundary and sections, of courses that are solved for this ship."""
+    for rounds in _ROUNDS:
+        try:
+            return _with_room(design, rounds)
+        except (BadInputError, OutOfRangeError) as error:
+            why = str(error)
+    # Courses as they were carried are less fair, and may be what can be made.
+    design, notes, state, report = _with_room(design)
+    note = DesignNote("courses of sections", 0.0, "", "as carried, not solved", remark=why)
+    return design, [*notes, note], state, report
+
+
+_ROUNDS = (10, 25)
+"""Of the solution of courses; more where sections cannot be made after the first."""
+
+
 def _with_room(
-    design: Design,
+    design: Design, rounds: int = 0
 ) -> tuple[Design, list[DesignNote], HullState, AdoptionReport]:
     """Make boundary and sections; the waterline is made fuller until they have room."""
     for step in range(_STEPS + 1):
         try:
-            state, report = build_net(attrs.evolve(design, waterlines=(), buttocks=()))
+            solved = fair_courses(design, rounds) if rounds else design
+            state, report = build_net(attrs.evolve(solved, waterlines=(), buttocks=()))
         except OutOfRangeError as error:
             if step == _STEPS or "sectional_area" not in error.name:
                 raise
@@ -128,7 +151,7 @@ def _with_room(
             "area of the entrance of the waterline", value, "", "made fuller in steps",
             remark=f"{step} steps of {100 * _FULLER:g} %: sections had no room for their areas",
         ))  # fmt: skip
-    return design, notes, state, report
+    return solved, notes, state, report
 
 
 def _fuller(design: Design, error: OutOfRangeError) -> Design:

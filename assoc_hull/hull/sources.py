@@ -318,7 +318,7 @@ def _closed(hull: Hull, asked: SixNumbers, typed: TypedDesign) -> tuple[Hull, Ty
                 edit.set_form(areas.name, **changes)
         except (BadInputError, RefusedEditError):
             # A net that does not follow is made anew.
-            state, _, typed = build_typed(attrs.evolve(typed, design=design))
+            state, _, typed = build_typed(attrs.evolve(typed, design=design), solve=False)
             hull = Hull(state)
             design = typed.design
     hull = Hull(hull.state)

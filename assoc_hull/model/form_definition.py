@@ -133,9 +133,10 @@ whichever it is a curve of. An angle (degrees, from +x to +y of the course's pla
 course) may be None: the rule then gives it. ``leave_...`` are set where the course turns a corner.
 ``tangent`` is a factor of a quarter of the chord; None is 1."""
 
-RULES = ("straight", "monotone", "form")
+RULES = ("straight", "monotone", "spline", "form")
 """How the pieces of a course run where nothing is given: straight; as a cubic without overshoot
-(Fritsch & Carlson 1980); as a form-parameter curve of least int |Q'''|^2 dt."""
+(Fritsch & Carlson 1980); as cubics whose second derivatives are continuous; as a form-parameter
+curve of least int |Q'''|^2 dt."""
 
 GENERATED = (
     "section", "transom", "profile", "deck edge", "deck centre", "flat of side", "flat of bottom",

@@ -10,9 +10,11 @@ from types import MappingProxyType
 
 from assoc_hull.creation.six_numbers import ShipType
 from assoc_hull.errors import BadInputError, UnknownNameError
-from assoc_hull.shipped.bulk_carrier_180m import bulk_carrier_180m_design
-from assoc_hull.shipped.container_ship_225m import container_ship_225m_design
-from assoc_hull.shipped.plain_ship import plain_ship_design
+from assoc_hull.shipped.fair_designs import (
+    fair_bulk_carrier_design,
+    fair_container_ship_design,
+    fair_plain_ship_design,
+)
 
 __all__ = ["SHIP_TYPES", "ship_type"]
 
@@ -30,18 +32,18 @@ _STERN = -0.9
 
 SHIP_TYPES: Mapping[str, ShipType] = MappingProxyType({
     each.name: each for each in (
-        ShipType("bulk carrier", bulk_carrier_180m_design, (100.0, 320.0), _FULL, _STERN),
-        ShipType("tanker", bulk_carrier_180m_design, (100.0, 320.0), _FULL, _STERN),
+        ShipType("bulk carrier", fair_bulk_carrier_design, (100.0, 320.0), _FULL, _STERN),
+        ShipType("tanker", fair_bulk_carrier_design, (100.0, 320.0), _FULL, _STERN),
         ShipType(
-            "container ship", container_ship_225m_design, (120.0, 360.0),
+            "container ship", fair_container_ship_design, (120.0, 360.0),
             _ratios((6.0, 8.2), (2.4, 3.6), (1.5, 2.1), (0.58, 0.72), (-3.0, 0.0)), -0.88,
         ),
         ShipType(
-            "general cargo", plain_ship_design, (70.0, 160.0),
+            "general cargo", fair_plain_ship_design, (70.0, 160.0),
             _ratios((5.5, 7.2), (2.2, 2.9), (1.3, 1.7), (0.62, 0.80), (-1.5, 2.0)), _STERN,
         ),
         ShipType(
-            "ro-ro", container_ship_225m_design, (100.0, 220.0),
+            "ro-ro", fair_container_ship_design, (100.0, 220.0),
             _ratios((5.5, 7.5), (3.0, 4.5), (1.8, 2.6), (0.52, 0.68), (-4.0, -1.0)), -0.88,
             remark="a single skeg; no twin skeg is drawn",
         ),

@@ -1,9 +1,11 @@
-"""Courses: curves of labelled nodes in natural units, by one of three rules.
+"""Courses: curves of labelled nodes in natural units, by one of four rules.
 
 - ``straight``: straight from node to node.
 - ``monotone``: single cubics; slopes that are not given are those of Fritsch and Carlson, by which
   nothing rises or falls that does not do so from node to node. F.N. Fritsch, R.E. Carlson,
   "Monotone piecewise cubic interpolation", SIAM J. Numer. Anal. 17(2), 1980.
+- ``spline``: single cubics with continuous second derivatives; at an end without an angle there is
+  none.
 - ``form``: form-parameter curves of least int of the squared third derivative; an angle that is
   not given is that of the parabola through a node and its neighbours, at an end of an arc.
 
@@ -23,6 +25,7 @@ Examples
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import attrs
@@ -80,7 +83,7 @@ def course_vertices(definition: FormDefinition) -> FloatArray:
     ------
     BadInputError
         No node, a node without x or y, two nodes in one place, angles where the rule has
-        none, abscissae out of order where the rule is ``monotone``.
+        none, abscissae out of order where the rule is ``monotone`` or ``spline``.
     """
     where = f"in the definition {definition.name!r}"
     nodes = _nodes(definition, where)
@@ -99,7 +102,9 @@ def course_vertices(definition: FormDefinition) -> FloatArray:
         _no_angles(nodes, where)
         return straight_vertices(points[:-1], points[1:])
     if definition.rule == "monotone":
-        return _monotone(nodes, points, where)
+        return _joined(points, *_monotone_slopes(nodes, _secants(nodes, points, where)))
+    if definition.rule == "spline":
+        return _joined(points, *_spline_slopes(nodes, _secants(nodes, points, where)))
     return _form(nodes, points, chord)
 
 
@@ -158,8 +163,12 @@ def _slope(angle_deg: float | None) -> float:
     return math.tan(math.radians(angle_deg)) if angle_deg else 0.0
 
 
-def _monotone(nodes: list[_Node], points: FloatArray, where: str) -> FloatArray:
-    """Join nodes by single cubics without overshoot."""
+Secants = tuple[FloatArray, FloatArray]
+"""Slope and width of each piece."""
+
+
+def _secants(nodes: list[_Node], points: FloatArray, where: str) -> Secants:
+    """Give slopes and widths of the pieces of a course whose nodes rise in x."""
     width = np.diff(points[:, 0])
     if not (width > 0.0).all():
         number = int(np.flatnonzero(~(width > 0.0))[0])
@@ -167,17 +176,37 @@ def _monotone(nodes: list[_Node], points: FloatArray, where: str) -> FloatArray:
             f"the node {nodes[number + 1].label!r} does not lie ahead of the one before it",
             where, "give the nodes by rising x",
         )  # fmt: skip
-    secant = np.diff(points[:, 1]) / width
+    return np.diff(points[:, 1]) / width, width
+
+
+def _joined(points: FloatArray, arrive: FloatArray, leave: FloatArray) -> FloatArray:
+    """Join nodes by single cubics with slopes at which each is arrived at and left."""
+    # Derivatives are by t, which runs from 0 to 4: a quarter of the width is an even pace in x.
+    pace = 0.25 * np.diff(points[:, 0])
+    return cubic_vertices(
+        points[:-1], points[1:],
+        np.stack([pace, pace * leave[:-1]], axis=1), np.stack([pace, pace * arrive[1:]], axis=1),
+    )  # fmt: skip
+
+
+def _given_slopes(nodes: list[_Node]) -> tuple[FloatArray, FloatArray]:
+    """Give the slopes with which nodes are arrived at and left, nan where none is given."""
     given = [(_slope(node.angle_deg), _slope(node.leave_angle_deg)) for node in nodes]
-    arrive, leave = np.empty(len(nodes)), np.empty(len(nodes))
-    for i, node in enumerate(nodes):
+    # A node without a value for leaving is left as it was arrived at.
+    leave = [before if math.isnan(after) else after for before, after in given]
+    return np.array([before for before, _ in given]), np.array(leave)
+
+
+def _monotone_slopes(nodes: list[_Node], secants: Secants) -> tuple[FloatArray, FloatArray]:
+    """Give slopes of single cubics without overshoot."""
+    secant, width = secants
+    arrive, leave = _given_slopes(nodes)
+    for i in range(1, len(nodes) - 1):
         # At a corner neither side knows the slope of the other.
-        inside = 0 < i < len(nodes) - 1 and not node.corner
-        free = _inner_slope(secant, width, i) if inside else math.nan
-        # A node without a value for leaving is left as it was arrived at.
-        before, after = given[i][0], given[i][0] if math.isnan(given[i][1]) else given[i][1]
-        arrive[i] = free if math.isnan(before) else before
-        leave[i] = free if math.isnan(after) else after
+        if not nodes[i].corner:
+            free = _inner_slope(secant, width, i)
+            arrive[i] = free if math.isnan(arrive[i]) else arrive[i]
+            leave[i] = free if math.isnan(leave[i]) else leave[i]
     for i in range(len(secant)):
         # At an end nothing else is known: the parabola that ends with the slope at the other end.
         if math.isnan(leave[i]) and math.isnan(arrive[i + 1]):
@@ -186,12 +215,32 @@ def _monotone(nodes: list[_Node], points: FloatArray, where: str) -> FloatArray:
             leave[i] = _bounded(1.5 * secant[i] - 0.5 * arrive[i + 1], secant[i])
         elif math.isnan(arrive[i + 1]):
             arrive[i + 1] = _bounded(1.5 * secant[i] - 0.5 * leave[i], secant[i])
-    # Derivatives are by t, which runs from 0 to 4: a quarter of the width is an even pace in x.
-    pace = 0.25 * width
-    return cubic_vertices(
-        points[:-1], points[1:],
-        np.stack([pace, pace * leave[:-1]], axis=1), np.stack([pace, pace * arrive[1:]], axis=1),
-    )  # fmt: skip
+    return arrive, leave
+
+
+def _spline_slopes(nodes: list[_Node], secants: Secants) -> tuple[FloatArray, FloatArray]:
+    """Give slopes of cubics whose second derivatives meet where no slope is given."""
+    secant, width = secants
+    arrive, leave = _given_slopes(nodes)
+    last = len(nodes) - 1
+    stops = [0, *(i for i in range(1, last) if nodes[i].corner or arrive[i] == arrive[i]), last]
+    for low, high in itertools.pairwise(stops):
+        count = high - low + 1
+        matrix, right = np.zeros((count, count)), np.zeros(count)
+        for i in range(1, count - 1):
+            one, two = width[low + i - 1], width[low + i]
+            matrix[i, i - 1 : i + 2] = two, 2.0 * (one + two), one
+            right[i] = 3.0 * (two * secant[low + i - 1] + one * secant[low + i])
+        ends = ((0, 1, leave[low], secant[low]), (-1, -2, arrive[high], secant[high - 1]))
+        for end, beside, given, chord in ends:
+            matrix[end, end] = 1.0
+            right[end] = given
+            if math.isnan(given):
+                # No second derivative at the end.
+                matrix[end, beside], right[end] = 0.5, 1.5 * chord
+        found = np.linalg.solve(matrix, right)
+        leave[low:high], arrive[low + 1 : high + 1] = found[:-1], found[1:]
+    return arrive, leave
 
 
 def _inner_slope(secant: FloatArray, width: FloatArray, i: int) -> float:

@@ -205,3 +205,44 @@ def test_two_for_one_use() -> None:
     """No two definitions serve one use."""
     with pytest.raises(BadInputError, match="already"):
         Forms.of([AREAS, AREAS], PARTICULARS)
+
+
+def test_a_spline_has_continuous_second_derivatives_and_none_at_its_ends() -> None:
+    """Slopes are those of the natural cubic spline; a given angle parts it, as a corner does."""
+    nodes = {"a": (0.0, 1.0), "b": (2.0, 3.0), "c": (3.0, 2.0), "d": (7.0, 4.0)}
+    found = course_vertices(spline_course(nodes))
+    # Of a piece of width w, by x: 16 / w^2 times the second derivative by t.
+    ends = np.stack([found[:, 0] - 2 * found[:, 1] + found[:, 2],
+                     found[:, 4] - 2 * found[:, 5] + found[:, 6]], axis=1)[..., 1]  # fmt: skip
+    second = ends * 16.0 / np.array([2.0, 1.0, 4.0])[:, None] ** 2
+    assert second[1:, 0] == pytest.approx(second[:-1, 1], abs=1e-12)
+    assert [second[0, 0], second[-1, 1]] == pytest.approx([0.0, 0.0], abs=1e-12)
+
+
+def test_a_spline_keeps_the_slope_that_is_given_and_leaves_a_corner_anew() -> None:
+    """At the angle of a node, and with another one after a corner."""
+    level = FormDefinition(
+        "angle", "keel_angle", "course",
+        {"a_x": 0.0, "a_y": 1.0, "b_x": 2.0, "b_y": 3.0, "b_angle_deg": 0.0,
+         "b_leave_angle_deg": 45.0, "c_x": 3.0, "c_y": 2.0}, "spline", ("a", "b", "c"),
+    )  # fmt: skip
+    chain = chain_of(level, PARTICULARS)
+    assert chain.tangent(0, 4.0)[0, 1] == pytest.approx(0.0, abs=1e-12)
+    leaving = chain.tangent(1, 0.0)[0]
+    assert leaving[1] == pytest.approx(leaving[0], rel=1e-12)
+
+
+def test_nodes_of_a_spline_out_of_order_are_refused() -> None:
+    """With the node that is."""
+    with pytest.raises(BadInputError, match="'b' does not lie ahead"):
+        course_vertices(spline_course({"a": (2.0, 1.0), "b": (1.0, 3.0)}))
+
+
+def spline_course(nodes: dict[str, tuple[float, float]]) -> FormDefinition:
+    """A course by the rule spline."""
+    values = {
+        f"{label}_{axis}": v
+        for label, at in nodes.items()
+        for axis, v in zip("xy", at, strict=True)
+    }
+    return FormDefinition("angle", "keel_angle", "course", values, "spline", tuple(nodes))
