@@ -123,12 +123,17 @@ class AttachedBody(ShownAsText):
         return float((corner[:, 0] * np.cross(corner[:, 1], corner[:, 2])).sum()) / 6.0
 
     def __str__(self) -> str:
+        return f"{self.name}: {self.summary}"
+
+    @property
+    def summary(self) -> str:
+        """What it is in a line, but for its name."""
         low, high = (each(axis=(0, 1)).tolist() for each in (self.points.min, self.points.max))
         spans = zip("xyz", low, high, strict=True)
         reach = ", ".join(f"{axis} {a:.6g} to {b:.6g}" for axis, a, b in spans)
         side = " on both sides" if self.both else ""
         taken = ", taken from the hull" if self.sign < 0 else ""
-        return f"{self.name} ({self.group}): {reach} m{side}, {self.volume:.6g} m3{taken}"
+        return f"{self.group}, {reach} m{side}, {self.volume:.6g} m3{taken}"
 
     @property
     def triangles(self) -> IntArray:

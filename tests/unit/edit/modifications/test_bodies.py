@@ -51,7 +51,7 @@ def test_a_body_is_an_object_of_the_hull(hull: ah.Hull) -> None:
     found = hull["HATCH 1"]
     assert isinstance(found, AttachedBody)
     assert found.volume == pytest.approx(12.0 * 6.0 * 1.2, rel=1e-12)
-    assert str(found) == "hatch 1 (hatches): x 40 to 52, y -3 to 3, z 10 to 11.2 m, 86.4 m3"
+    assert str(found) == "hatch 1: hatches, x 40 to 52, y -3 to 3, z 10 to 11.2 m, 86.4 m3"
     assert hull.check() == ()
     assert hull.verify() == ()
 
