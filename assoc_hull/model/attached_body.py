@@ -148,8 +148,9 @@ class AttachedBody(ShownAsText):
         aft, fore = _ears(points[0, :, 1:]), _ears(points[-1, :, 1:]) + m * (k - 1)
         # Seen from forward a section that turns to the left has its aft cap turned away.
         found = np.concatenate([sides.reshape(-1, 3), aft[:, ::-1], fore])
-        y, z = points[0, :, 1], points[0, :, 2]
-        left = (y * np.roll(z, -1) - np.roll(y, -1) * z).sum() > 0.0
+        y, z = points[:, :, 1], points[:, :, 2]
+        # Of all sections: the first may be a point, as a deck is at the stem.
+        left = (y * np.roll(z, -1, axis=1) - np.roll(y, -1, axis=1) * z).sum() > 0.0
         return np.asarray(found if left else found[:, ::-1])
 
 
