@@ -165,8 +165,8 @@ def _ears(yz: FloatArray) -> IntArray:
         before, after = np.roll(corner, 1), np.roll(corner, -1)
         turn = way * _turn(yz[before], yz[corner], yz[after])
         # A corner is cut off where no other one lies in its triangle; the sharpest comes first.
-        sound = [k for k in np.argsort(-turn).tolist() if _empty(yz, left, k, way)]
-        at = sound[0] if sound else int(np.argmax(turn))
+        order = np.argsort(-turn, kind="stable").tolist()
+        at = next((k for k in order if _empty(yz, left, k, way)), order[0])
         found.append((int(before[at]), left[at], int(after[at])))
         del left[at]
     return np.array([*found, tuple(left)])
