@@ -1075,7 +1075,7 @@ class Edit:
         >>> with hull.edit("hatch") as edit:
         ...     edit.body("hatch 1", "hatches", x=(40, 52), y=(-3, 3), z=(10, 11.2))
         >>> print(hull["hatch 1"])
-        hatch 1 (hatches): x 40 to 52, y -3 to 3, z 10 to 11.2 m, 86.4 m3
+        hatch 1: hatches, x 40 to 52, y -3 to 3, z 10 to 11.2 m, 86.4 m3
         """
         shape = _bodies.BodyShape(sections, x, y, z, corners, both, sign)
         with self._transaction.whole() as held:
@@ -1148,8 +1148,8 @@ class Edit:
             Whose images are taken exactly; their planes go along, and one that is bent out
             of a plane becomes a space curve. Boundary curves are features of the hull and
             no cuts of it: they are carried with the drivers, named or not.
-        scale, shift : (3,), (3,), m
-            Instead of a mapping: factors about the origin, then a shift.
+        scale, shift : float or (3,), (3,), m
+            Instead of a mapping: a factor about the origin, or one along each axis, then a shift.
         planes : {"stay", "follow"}
             Followers are cut again at their own planes, or at parallel ones where the
             mapping sends their planes to such.

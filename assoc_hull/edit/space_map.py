@@ -12,7 +12,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import places, shown
+from assoc_hull.arguments import numbers, shown
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray
 
@@ -68,16 +68,17 @@ def affine(scale: ArrayLike | None, shift: ArrayLike | None) -> Affine:
     Raises
     ------
     BadInputError
-        Not three finite numbers each, or a factor that is not above 0.
+        Not one or three factors above 0, or not three lengths.
     """
-    factor = places([1.0, 1.0, 1.0] if scale is None else scale, "scale")
-    offset = places([0.0, 0.0, 0.0] if shift is None else shift, "shift")
-    if factor.shape != (1, 3) or offset.shape != (1, 3) or not (factor > 0.0).all():
-        raise BadInputError(
-            f"scale is {shown(scale)}, shift {shown(shift)}", "in transform",
-            "give three factors above 0, and three lengths in m",
-        )  # fmt: skip
-    return Affine(factor[0], offset[0])
+    where = "in transform"
+    factor = numbers(1.0 if scale is None else scale, "scale", where)
+    if factor.shape not in ((), (1,), (3,)) or not (factor > 0.0).all():
+        remedy = "give one factor above 0, or three along x, y and z"
+        raise BadInputError(f"scale is {shown(scale)}", where, remedy)
+    offset = numbers(np.zeros(3) if shift is None else shift, "shift", where)
+    if offset.shape != (3,):
+        raise BadInputError(f"shift is {shown(shift)}", where, "give three lengths, m: x, y and z")
+    return Affine(np.broadcast_to(factor, (3,)) + 0.0, offset + 0.0)
 
 
 @attrs.frozen(eq=False)

@@ -123,12 +123,17 @@ class AttachedBody(ShownAsText):
         return float((corner[:, 0] * np.cross(corner[:, 1], corner[:, 2])).sum()) / 6.0
 
     def __str__(self) -> str:
+        return f"{self.name}: {self.summary}"
+
+    @property
+    def summary(self) -> str:
+        """What it is in a line, but for its name."""
         low, high = (each(axis=(0, 1)).tolist() for each in (self.points.min, self.points.max))
         spans = zip("xyz", low, high, strict=True)
         reach = ", ".join(f"{axis} {a:.6g} to {b:.6g}" for axis, a, b in spans)
         side = " on both sides" if self.both else ""
         taken = ", taken from the hull" if self.sign < 0 else ""
-        return f"{self.name} ({self.group}): {reach} m{side}, {self.volume:.6g} m3{taken}"
+        return f"{self.group}, {reach} m{side}, {self.volume:.6g} m3{taken}"
 
     @property
     def triangles(self) -> IntArray:
@@ -143,8 +148,9 @@ class AttachedBody(ShownAsText):
         aft, fore = _ears(points[0, :, 1:]), _ears(points[-1, :, 1:]) + m * (k - 1)
         # Seen from forward a section that turns to the left has its aft cap turned away.
         found = np.concatenate([sides.reshape(-1, 3), aft[:, ::-1], fore])
-        y, z = points[0, :, 1], points[0, :, 2]
-        left = (y * np.roll(z, -1) - np.roll(y, -1) * z).sum() > 0.0
+        y, z = points[:, :, 1], points[:, :, 2]
+        # Of all sections: the first may be a point, as a deck is at the stem.
+        left = (y * np.roll(z, -1, axis=1) - np.roll(y, -1, axis=1) * z).sum() > 0.0
         return np.asarray(found if left else found[:, ::-1])
 
 
@@ -159,8 +165,8 @@ def _ears(yz: FloatArray) -> IntArray:
         before, after = np.roll(corner, 1), np.roll(corner, -1)
         turn = way * _turn(yz[before], yz[corner], yz[after])
         # A corner is cut off where no other one lies in its triangle; the sharpest comes first.
-        sound = [k for k in np.argsort(-turn).tolist() if _empty(yz, left, k, way)]
-        at = sound[0] if sound else int(np.argmax(turn))
+        order = np.argsort(-turn, kind="stable").tolist()
+        at = next((k for k in order if _empty(yz, left, k, way)), order[0])
         found.append((int(before[at]), left[at], int(after[at])))
         del left[at]
     return np.array([*found, tuple(left)])

@@ -50,5 +50,7 @@ class TunnelDefinition:
         x, _, z = (places[0] + 0.0).tolist()
         return attrs.evolve(self, x=x, z=z)
 
-    def __str__(self) -> str:
+    @property
+    def summary(self) -> str:
+        """What it is in a line, but for its name."""
         return f"{2.0 * self.radius:.6g} m across at x {self.x:.6g}, z {self.z:.6g} m"

@@ -21,8 +21,10 @@ from assoc_hull.model.attachments import attachments_in_order
 
 __all__ = [
     "ACROSS",
+    "DECK_PARTS",
     "block_body",
     "box_body",
+    "camber_body",
     "house_body",
     "lofted_body",
     "put_bodies",
@@ -31,6 +33,9 @@ __all__ = [
 
 ACROSS = 17
 """Points at which the foot and the top of a block on a deck are taken, from side to side."""
+
+DECK_PARTS = np.linspace(-1.0, 1.0, ACROSS)
+"""Parts of its half-breadth at which the camber of a deck is taken."""
 
 _NO_ADDRESS = str.maketrans(dict.fromkeys("#/[]:@", "-"))
 """What addresses are made with, and names cannot have."""
@@ -60,6 +65,18 @@ def house_body(house: DeckHouse, group: str) -> AttachedBody:
     drop = house.deck.camber.drop(y, house.deck_half_breadth)
     foot = house.deck.centre(x)[:, None] - drop
     return block_body(house.name, group, x, foot, foot + house.height, y)
+
+
+def camber_body(x: FloatArray, half: FloatArray, z: FloatArray) -> AttachedBody | None:
+    """Make what lies between a deck straight across and its camber; None where it has none.
+
+    Half-breadths at x, (k,), m, and heights of the deck from starboard to port at the parts
+    `DECK_PARTS` of them, (k, m), m. The middle edge is the centre line of the deck.
+    """
+    order = np.flatnonzero(np.append(True, np.diff(x) > 0.0))
+    sections = np.dstack([np.broadcast_to(x[:, None], z.shape), half[:, None] * DECK_PARTS, z])
+    found = AttachedBody("deck camber", "decks", sections[order], (len(DECK_PARTS) // 2,), False, 1)
+    return found if found.flux > 0.0 else None
 
 
 def box_body(box: AppendageBox, group: str) -> AttachedBody:

@@ -21,7 +21,12 @@ from scipy.interpolate import PchipInterpolator
 
 from assoc_hull.analysis.hydrostatics.floating_body import Appendage
 from assoc_hull.arguments import all_of, instance, shown
-from assoc_hull.creation.classical.bodies_beside import box_body, house_body
+from assoc_hull.creation.classical.bodies_beside import (
+    DECK_PARTS,
+    box_body,
+    camber_body,
+    house_body,
+)
 from assoc_hull.creation.classical.prelikon_lines import (
     ENDS,
     SAME_PLACE,
@@ -429,15 +434,28 @@ class Prelikon:
         return prelikon_lines(self.stations, self.profile, self.deck, self.knuckles)
 
     def bodies(self) -> tuple[AttachedBody, ...]:
-        """Give boxes, deck houses and hatches, as they stand beside a net."""
+        """Give boxes, camber, deck houses and hatches, as they stand beside a net."""
         boxes = [box_body(each, "boxes") for each in self.boxes]
         houses = [house_body(each, "deck houses") for each in self.houses]
-        return (*boxes, *houses, *(house_body(each, "hatches") for each in self.hatches))
+        camber = [] if self.deck is None else [_camber(self.stations, self.deck)]
+        hatches = [house_body(each, "hatches") for each in self.hatches]
+        return (*boxes, *(each for each in camber if each is not None), *houses, *hatches)
 
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give volumes and centres of hull, boxes and houses, beside those of a net of it."""
         given = None if state is None else instance(state, HullState, "state", "in a report")
         return prelikon_report(self, given)
+
+
+def _camber(stations: Sequence[Station], deck: Deck) -> AttachedBody | None:
+    """Make the camber of a deck between the first and the last section."""
+    ends = np.array([trim_station(each, deck).curve.arcs.ends()[-1] for each in stations])
+    x, half = np.array([each.x for each in stations]), np.maximum(ends[:, 0], 0.0)
+    wide = np.maximum(half, 1e-9)[:, None]
+    z = deck.at(x[:, None], half[:, None] * DECK_PARTS, np.broadcast_to(wide, (len(x), 1)))
+    # The side as the section has it, to the last bit.
+    z[:, [0, -1]] = ends[:, 1:]
+    return camber_body(x, half, z)
 
 
 def _require_decks(

@@ -40,6 +40,7 @@ from assoc_hull.creation.classical.seaking_parts import (
     MidshipSection,
     ParallelPart,
     SeakingSection,
+    camber_of_deck,
     check_deck,
     check_frames,
     check_heights,
@@ -242,11 +243,12 @@ class Seaking:
         return seaking_lines(self)
 
     def bodies(self) -> tuple[AttachedBody, ...]:
-        """Give appendages, deck houses and hatches, as they stand beside a net."""
+        """Give appendages, camber, deck houses and hatches, as they stand beside a net."""
         hung = [
             lofted_body(each.name, each.body, each.both, "appendages") for each in self.appendages
         ]
-        return (*hung, *(each.body(self.deck, self.camber) for each in self.blocks))
+        blocks = [each.body(self.deck, self.camber) for each in self.blocks]
+        return (*hung, *camber_of_deck(self.deck, self.camber), *blocks)
 
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give its own numbers, beside those of a net of it if one is handed in."""
@@ -647,7 +649,10 @@ def _omission_notes(ship: Seaking) -> list[str]:
     found = []
     if len(ship.camber.rise) or len(ship.camber.corner):
         found.append(
-            "camber and rounded corners of the deck are not in the net: it ends at the deck side"
+            "camber and rounded corners of the deck are not in the net: it ends at the deck side; "
+            "the camber stands beside it"
+            if len(ship.camber.rise)
+            else "rounded corners of the deck are not in the net: it ends at the deck side"
         )
     steps = ship.deck.x[1:][ship.deck.code == 0].tolist()
     if steps:

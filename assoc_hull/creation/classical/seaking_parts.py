@@ -17,7 +17,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import instance
-from assoc_hull.creation.classical.bodies_beside import ACROSS, block_body
+from assoc_hull.creation.classical.bodies_beside import (
+    ACROSS,
+    DECK_PARTS,
+    block_body,
+    camber_body,
+)
 from assoc_hull.creation.classical.line_outline import PlaneOutline, smooth_piece, straight_piece
 from assoc_hull.creation.classical.middle_body import Midship, midship_outline
 from assoc_hull.errors import GeometryError
@@ -52,6 +57,7 @@ __all__ = [
     "MidshipSection",
     "ParallelPart",
     "SeakingSection",
+    "camber_of_deck",
     "check_deck",
     "check_frames",
     "check_heights",
@@ -112,7 +118,7 @@ class AttachedAppendage:
 
 
 _LOOKED = 33
-"""Places along a block, ends among them, at which it must not be broader than its deck."""
+"""Places along a block or a deck, ends among them; no block may be broader than its deck there."""
 
 
 @attrs.frozen
@@ -178,6 +184,23 @@ class DeckBlock:
         foot = side[:, 1:] + rise[:, None] * _crown(y / half[:, None], camber.kind)
         top = foot[:, :1] + self.height + self.rise * _crown(y / (0.5 * self.breadth), camber.kind)
         return block_body(self.name, self.group, x, foot, np.broadcast_to(top, foot.shape), y)
+
+
+def camber_of_deck(deck: CodedKnuckleLine, camber: DeckCamber) -> tuple[AttachedBody, ...]:
+    """Make the camber of a deck as a body beside the net, if it has any; corners are not rounded.
+
+    Along the ship it is taken where deck side and camber have their points, and between.
+    """
+    if not len(camber.rise):
+        return ()
+    low, high = deck.ends
+    knots = np.concatenate([deck.x, camber.rise[:, 0]])
+    inner = knots[(knots > low) & (knots < high)]
+    x = np.union1d(np.linspace(low, high, _LOOKED), inner)
+    side, rise = deck.at(x), np.interp(x, *camber.rise.T)
+    z = side[:, 1:] + rise[:, None] * _crown(DECK_PARTS, camber.kind)
+    found = camber_body(x, side[:, 0], z)
+    return () if found is None else (found,)
 
 
 def _crown(part: FloatArray, kind: str) -> FloatArray:

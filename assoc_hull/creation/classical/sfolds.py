@@ -16,7 +16,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import all_of, instance, not_negative, shown
-from assoc_hull.creation.classical.bodies_beside import sections_body
+from assoc_hull.creation.classical.bodies_beside import DECK_PARTS, camber_body, sections_body
 from assoc_hull.creation.classical.line_outline import point_kinds_along
 from assoc_hull.creation.classical.report import (
     ClassicalReport,
@@ -159,10 +159,10 @@ class Sfolds:
         return sfolds_lines(self.portions, self.corner)
 
     def bodies(self) -> tuple[AttachedBody, ...]:
-        """Give the portions that are bodies of their own and have sections."""
-        return tuple(
-            portion_body(each) for each in self.portions if not each.is_main and each.sections
-        )
+        """Give the portions that are bodies of their own and have sections; the camber."""
+        portions = [each for each in self.portions if not each.is_main and each.sections]
+        camber = _camber([each for each in self.portions if each.is_main and each.sections])
+        return (*map(portion_body, portions), *(() if camber is None else (camber,)))
 
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give volumes and centres of portions and of the whole, beside those of a net of it."""
@@ -412,6 +412,23 @@ def portion_body(portion: Portion) -> AttachedBody:
     rings = np.stack([_ring(each) for each in portion.sections])
     group = f"{portion.kind}s"
     return sections_body(portion.kind, group, portion.stations, rings, _ring_corners())
+
+
+def _camber(portions: Sequence[Portion]) -> AttachedBody | None:
+    """Make the camber of the main body, from its first section to its last."""
+    stations = sorted(
+        (
+            (x, section)
+            for each in portions
+            for x, section in zip(each.stations.tolist(), each.sections, strict=False)
+        ),
+        key=lambda each: each[0],
+    )
+    if len(stations) < 2:
+        return None
+    half = np.array([section.bd for _, section in stations])
+    z = np.array([section.camber(section.bd * DECK_PARTS) for _, section in stations])
+    return camber_body(np.array([x for x, _ in stations]), half, z)
 
 
 def _ring(section: OrdinateSection) -> FloatArray:

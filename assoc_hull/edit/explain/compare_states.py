@@ -87,7 +87,8 @@ class BesideDifference:
     after: str = ""
 
     def __str__(self) -> str:
-        there = f": {self.before} -> {self.after}" if self.what == "changed" else ""
+        differ = self.what == "changed" and self.before != self.after
+        there = f": {self.before} -> {self.after}" if differ else ""
         return f"the {self.kind} {self.name}: {self.what}{there}"
 
 
@@ -190,11 +191,11 @@ def _beside(
             gone.remove(was)
             yield BesideDifference(kind.word, f"{was} -> {name}", "renamed")
         elif name not in old:
-            yield BesideDifference(kind.word, name, "added", after=str(each))
+            yield BesideDifference(kind.word, name, "added", after=each.summary)
         elif each != old[name]:
-            yield BesideDifference(kind.word, name, "changed", str(old[name]), str(each))
+            yield BesideDifference(kind.word, name, "changed", old[name].summary, each.summary)
     for name in gone:
-        yield BesideDifference(kind.word, name, "removed", before=str(old[name]))
+        yield BesideDifference(kind.word, name, "removed", before=old[name].summary)
 
 
 def _numbers(state: HullState) -> dict[str, float | None]:

@@ -18,6 +18,12 @@ from assoc_hull.model.attached_body import AttachedBody
 
 __all__ = ["BodyShape", "add_body", "set_body"]
 
+_MOST = 100_000
+"""So many points have all bodies of a hull together at most: a step holds them all, twice."""
+
+_AROUND = 1_000
+"""So many has a section at most: its ends are parted into triangles corner by corner."""
+
 
 @attrs.frozen
 class BodyShape:
@@ -57,7 +63,7 @@ def add_body(edit: Transaction, name: str, group: str, shape: BodyShape) -> None
     refuse_taken(edit.state, name)
     if shape.sections is None and (shape.x is None or shape.y is None or shape.z is None):
         raise BadInputError(f"{name!r} has no shape", where, "give x, y and z, or sections")
-    put(edit, None, _shaped(name, group, shape, None, where))
+    _put(edit, None, _shaped(name, group, shape, None, where), where)
 
 
 def set_body(
@@ -81,6 +87,15 @@ def set_body(
     new = _shaped(old.name, old.group if group is None else group, shape, old, where)
     if by is not None:
         new = _sound(attrs.evolve(new, sections=new.points + place(by, "by", where)), where)
+    _put(edit, old, new, where)
+
+
+def _put(edit: Transaction, old: AttachedBody | None, new: AttachedBody, where: str) -> None:
+    others = sum(len(each.carriers) for each in edit.state.bodies if each is not old)
+    if others + len(new.carriers) > _MOST:
+        what = f"{new.name!r} has {len(new.carriers)} points, and other bodies {others}"
+        remedy = f"give fewer: all bodies of a hull have at most {_MOST} points together"
+        raise BadInputError(what, where, remedy)
     put(edit, old, new)
 
 
@@ -124,6 +139,9 @@ def _rings(sections: ArrayLike, where: str) -> FloatArray:
     if found.ndim != 3 or found.shape[2] != 3 or found.shape[0] < 2 or found.shape[1] < 3:
         remedy = "give two or more from aft forward, each of as many points (x, y, z), at least 3"
         raise BadInputError(f"sections are {shown(sections)}", where, remedy)
+    if found.shape[1] > _AROUND:
+        what = f"sections have {found.shape[1]} points each"
+        raise BadInputError(what, where, f"give at most {_AROUND}")
     return places(found.reshape(-1, 3), "sections", where).reshape(found.shape)
 
 

@@ -36,7 +36,7 @@ from assoc_hull.plot.sheet.report_pages import (
     page_foot,
     page_head,
 )
-from assoc_hull.plot.sheet.sheet_figure import Sheet
+from assoc_hull.plot.sheet.sheet_figure import Sheet, printable
 from assoc_hull.plot.sheet.view import View
 
 if TYPE_CHECKING:
@@ -309,7 +309,7 @@ def _part_pages(
 
 def _says(sheet: Sheet, heading: str) -> bool:
     """Tell whether a heading stands on a page."""
-    return any(text.get_text() == heading for text in sheet.axes.texts)
+    return any(text.get_text() == printable(heading) for text in sheet.axes.texts)
 
 
 def _flow_table(flow: PageFlow, table: BookTable) -> None:
@@ -326,7 +326,7 @@ def _number_picture(figure: Figure, words: str) -> None:
     """Write the number of a page that has a frame of its own, below the frame."""
     wide, tall = (25.4 * side for side in figure.get_size_inches().tolist())
     figure.text(
-        (wide - 9.0) / wide, 3.2 / tall, words, ha="right", va="baseline", fontsize=6.6,
+        (wide - 9.0) / wide, 3.2 / tall, printable(words), ha="right", va="baseline", fontsize=6.6,
         fontfamily="DejaVu Sans", gid="page", parse_math=False,
     )  # fmt: skip
 

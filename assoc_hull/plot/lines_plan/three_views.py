@@ -455,12 +455,15 @@ class Views:
         for each in self.drawing.bodies:
             middle = each.points.reshape(-1, 3).mean(axis=0)
             name = f"{each.group}/{each.name}"
-            half = view
-            if view.name == "body" and middle[0] < self.middle:
-                half = view.mirrored()
+            halves = [(view, low, high)]
+            if view.name == "body":
+                # What stands abaft the middle belongs to the aft body, the rest to the fore body.
+                aft, fore = min(high, self.middle), max(low, self.middle)
+                halves = [(view.mirrored(), low, aft), (view, fore, high)]
             for points in drawn_outlines(each):
-                for part, _ in clipped(points, low, high):
-                    self.sheet.line(half.on_paper(part), _BODY, f"{view.name}/{name}")
+                for half, first, last in halves:
+                    for part, _ in clipped(points, first, last):
+                        self.sheet.line(half.on_paper(part), _BODY, f"{view.name}/{name}")
             if view.name == "profile" and self.drawing.shows(middle[0]):
                 over = view.up(float(each.points[..., 2].max())) + 0.8 * self.sheet.paper.factor
                 self.sheet.text(

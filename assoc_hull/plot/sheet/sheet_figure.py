@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 import os
 from collections.abc import Iterable
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -23,29 +24,16 @@ from assoc_hull.plot.sheet.paper import POINT, Paper, Pen, paper_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.text import Text
-from matplotlib.figure import Figure
 
-__all__ = ["Path_", "Sheet", "pdf_of", "pdf_of_figures", "require_matplotlib", "save"]
-
-# --------------------------------------------------------------------------------------
-# A figure of matplotlib that a notebook shows without being told to.
-#
-# It is a module of its own since it imports matplotlib, which others import when a sheet is made.
-
-_DOTS = 100.0
-"""Of an inch on the screen."""
-
-
-class ShownFigure(Figure):
-    """A figure that a notebook shows as a picture, whether pyplot has been imported or not."""
-
-    def _repr_png_(self) -> bytes:
-        file = io.BytesIO()
-        self.savefig(file, format="png", dpi=_DOTS)
-        return file.getvalue()
-
-
-# --------------------------------------------------------------------------------------
+__all__ = [
+    "Path_",
+    "Sheet",
+    "pdf_of",
+    "pdf_of_figures",
+    "printable",
+    "require_matplotlib",
+    "save",
+]
 
 # --------------------------------------------------------------------------------------
 # A sheet of paper: lines and letters placed in millimetres, written the same way each time.
@@ -96,6 +84,8 @@ class Sheet:
     def __init__(self, paper: str | Paper, height: float | None = None) -> None:
         require_matplotlib()
         from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+        from assoc_hull.plot.sheet.shown_figure import ShownFigure
 
         size = paper if isinstance(paper, Paper) else paper_of(paper)
         self.paper = size if height is None else attrs.evolve(size, height=height)
@@ -201,7 +191,8 @@ class Sheet:
 
         rim = withStroke(linewidth=0.45 * self.paper.letter, foreground="white")
         return self.axes.text(
-            *place, words, fontsize=size * self.paper.letter, ha=across, va=up, rotation=angle,
+            *place, printable(words), fontsize=size * self.paper.letter, ha=across, va=up,
+            rotation=angle,
             rotation_mode="anchor" if angle and across != "center" else "default", color=colour,
             fontweight="bold" if bold else "normal", fontfamily=_FONT, gid=name, zorder=5.0,
             path_effects=[rim] if halo else None, parse_math=False,
@@ -221,12 +212,40 @@ class Sheet:
         font = FontProperties(
             family=_FONT, weight="bold" if bold else "normal", size=size * self.paper.letter
         )
-        wide, _, _ = text_to_path.get_text_width_height_descent(words, font, ismath=False)
+        wide, _, _ = text_to_path.get_text_width_height_descent(
+            printable(words), font, ismath=False
+        )
         return float(wide) * POINT
 
     def take(self, text: Text) -> None:
         """Keep later labels clear of these words."""
         self.taken.append(self.box(text))
+
+
+@cache
+def _glyphs() -> frozenset[int]:
+    """Give the characters that the font of sheets has."""
+    from matplotlib.font_manager import FontProperties, findfont, get_font
+
+    return frozenset(get_font(findfont(FontProperties(family=_FONT))).get_charmap())
+
+
+def printable(words: str) -> str:
+    """Put a blank square in the place of each character that the font of sheets lacks.
+
+    Names may be written in any script; the font is the same on every machine, and no other is
+    looked for.
+
+    Examples
+    --------
+    >>> from assoc_hull.plot.sheet.sheet_figure import printable
+    >>> printable("Größe 船")
+    'Größe □'
+    """
+    if words.isascii():
+        return words
+    known = _glyphs()
+    return "".join(each if ord(each) in known or each == "\n" else "□" for each in words)
 
 
 def save(figure: Figure, path: Path_) -> None:

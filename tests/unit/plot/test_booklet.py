@@ -183,3 +183,13 @@ def test_bookmarks_lead_to_the_pages_of_the_contents(hull: ah.Hull, tmp_path: Pa
     kids = re.search(rb"/Kids \[(.*?)\]", data, re.DOTALL)
     assert kids is not None
     assert targets <= {int(each) for each in re.findall(rb"(\d+) 0 R", kids[1])}
+
+
+def test_names_in_any_script_are_printed_without_a_warning(tmp_path: Path) -> None:
+    """Characters that the font lacks are blank squares; a warning is an error here."""
+    ship = ah.examples.wigley(stations=9, waterlines=6)
+    with ship.edit("names") as edit:
+        edit.rename(None, "船 Größe")
+        edit.rename("ST 5", "肋骨 5")
+    ship.report(tmp_path / "ship.pdf", parts=["areas"], draught=4.0, title="报告")
+    assert "\u25a1 Größe" in " ".join(words_of(ship, "areas"))

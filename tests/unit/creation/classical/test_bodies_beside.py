@@ -66,7 +66,9 @@ def test_bodies_are_lines_of_groups_of_their_own(made: ah.Hull) -> None:
     """The foot follows the camber of the deck; the top has its own."""
     hold = made.bodies["hold"]
     groups = {each.name: each.group for each in made.bodies.values()}
-    assert groups == {"bridge": "deck houses", "hold": "hatches", "keel": "appendages"}
+    assert groups == {
+        "bridge": "deck houses", "deck camber": "decks", "hold": "hatches", "keel": "appendages",
+    }  # fmt: skip
     assert list(hold.outlines) == ["aft end", "fore end", "edge 1", "edge 2", "edge 3", "edge 4"]
     end = hold.outlines["aft end"]
     assert (end[0] == end[-1]).all()
@@ -119,7 +121,7 @@ def test_a_transformation_carries_bodies_and_undo_brings_them_back(tmp_path: Pat
 def test_an_export_says_that_it_leaves_bodies_out(made: ah.Hull, tmp_path: Path) -> None:
     """By their names; the closed mesh is that of the hull."""
     report = made.export(tmp_path / "ship.dxf")
-    assert "bodies beside its net (bridge, hold, keel)" in str(report)
+    assert "bodies beside its net (bridge, deck camber, hold, keel)" in str(report)
 
 
 @pytest.mark.parametrize(
@@ -166,7 +168,7 @@ def test_portions_of_their_own_are_outlined_as_their_sections_are() -> None:
     assert isinstance(ship, Sfolds)
     rest = {each.kind: each.volume for each in ship.portions if not each.is_main}
     found = {each.name: each.volume for each in ship.bodies()}
-    assert list(found) == list(rest)
+    assert list(found) == [*rest, "deck camber"]
     # Three stations: between them Simpson's rule has a parabola, and the outline is straight.
     assert found["bossing"] == pytest.approx(rest["bossing"], rel=0.12)
     for portion in (each for each in ship.portions if not each.is_main):
@@ -175,6 +177,42 @@ def test_portions_of_their_own_are_outlined_as_their_sections_are() -> None:
         swept = rings[..., 0] * after[..., 1] - after[..., 0] * rings[..., 1]
         areas = [each.area for each in portion.sections]
         np.testing.assert_allclose(0.5 * swept.sum(axis=1), areas, rtol=5e-3)
+
+
+def test_the_camber_of_a_deck_lies_between_its_sides(made: ah.Hull, bare: ah.Hull) -> None:
+    """A parabola over a constant breadth; its centre line is the edge along; sections turn left."""
+    camber = made.bodies["deck camber"]
+    assert camber == bare.bodies["deck camber"]
+    assert camber.volume == pytest.approx(2.0 / 3.0 * 16.0 * 0.4 * 44.0, rel=5e-3)
+    centre = camber.outlines["edge 1"]
+    np.testing.assert_allclose(centre[:, 1:], [[0.0, 9.4]] * len(centre), atol=1e-12)
+    assert (centre[0, 0], centre[-1, 0]) == (-2.0, 42.0)
+
+
+@pytest.mark.parametrize(
+    ("ship", "whole"),
+    [
+        ("seaking_ship", "volume with its decks"),
+        ("prelikon_ship", "hull to the deck, with camber: volume"),
+        ("sfolds_ship", "main body: volume, with camber"),
+    ],
+)
+def test_mesh_and_camber_enclose_what_the_definition_does(ship: str, whole: str) -> None:
+    """Two routes: chords of lines and of the deck here, exact areas there."""
+    said = classical_ship(ship)
+    mesh = ah.create(said).mesh()
+    camber = [each for each in mesh.bodies if each.name == "deck camber"]
+    assert len(camber) == 1
+    enclosed = mesh.volume + float(camber[0].report.fluxes[0])
+    assert enclosed == pytest.approx(said.report().figure(whole).value, rel=1e-3)
+
+
+def test_a_body_of_the_name_of_a_line_is_numbered() -> None:
+    """However it is written; what reads as an address is written so that it can be looked up."""
+    cards = [f"hatch {name} from=12 to=24 breadth=8 height=1\n" for name in ("Profile", "a/b")]
+    ship = ah.create(read_definition(BOX + "".join(cards), "box.txt"))
+    assert set(ship.bodies) == {"Profile 2", "a-b", "deck camber"}
+    assert ship["a-b"] is ship.bodies["a-b"]
 
 
 def test_triangles_close_a_body_that_is_not_convex() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TypedDict
 
 import numpy as np
 import pytest
@@ -21,11 +22,21 @@ from assoc_hull.errors import (
 from assoc_hull.model.attached_body import AttachedBody
 from tests.taken_back import taken_back
 
-HATCH = {"x": (40.0, 52.0), "y": (-3.0, 3.0), "z": (10.0, 11.2)}
-WEDGE = [
+
+class Box(TypedDict):
+    """From where to where a box reaches, m."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    z: tuple[float, float]
+
+
+HATCH: Box = {"x": (40.0, 52.0), "y": (-3.0, 3.0), "z": (10.0, 11.2)}
+WEDGE: list[list[list[float]]] = [
     [[20.0, -2, 10], [20, 2, 10], [20, 0, 12]],
     [[26.0, -2, 10], [26, 2, 10], [26, 0, 10.5]],
 ]
+STEPS = np.arange(40_000)[:, None, None] * np.array([1e-3, 0.0, 0.0])
 ASIDE = np.array([0.0, 5.0, 0.0])
 
 
@@ -51,7 +62,7 @@ def test_a_body_is_an_object_of_the_hull(hull: ah.Hull) -> None:
     found = hull["HATCH 1"]
     assert isinstance(found, AttachedBody)
     assert found.volume == pytest.approx(12.0 * 6.0 * 1.2, rel=1e-12)
-    assert str(found) == "hatch 1 (hatches): x 40 to 52, y -3 to 3, z 10 to 11.2 m, 86.4 m3"
+    assert str(found) == "hatch 1: hatches, x 40 to 52, y -3 to 3, z 10 to 11.2 m, 86.4 m3"
     assert hull.check() == ()
     assert hull.verify() == ()
 
@@ -126,6 +137,8 @@ def test_setting_what_is_there_is_no_step(hull: ah.Hull) -> None:
         ({"sections": "no"}, "sections are 'no'"),
         ({"sections": [[[0, 0, 0]] * 3, [[1, 0, 0]] * 3]}, "'b' encloses 0 m3"),
         ({"sections": [[[0, 0, float("inf")]] * 3, [[1, 0, 0]] * 3]}, "not finite"),
+        ({"sections": np.zeros((2, 1001, 3))}, "1001 points each.*at most 1000"),
+        ({"sections": np.tile(WEDGE[0], (40_000, 1, 1)) + STEPS}, "120000 points.*at most 100000"),
         ({**HATCH, "both": True}, "its mirror image is in it"),
         ({**HATCH, "both": "maybe"}, "both"),
         ({**HATCH, "sign": 2}, "sign is 2.*1 for what stands"),

@@ -468,6 +468,9 @@ OTHER: dict[str, Callable[[ah.Hull], object]] = {
         "foreign",
         lambda edit: edit.transform(scale=[1, 2, 1], drivers=[small().groups["sections"]]),
     ),
+    "two factors": lambda hull: hull.apply("two", [_WIDE | {"scale": [1, 2]}]),
+    "no factor": lambda hull: hull.apply("no", [_WIDE | {"scale": "wide"}]),
+    "two lengths": lambda hull: hull.apply("two", [_WIDE | {"shift": [1, 2]}]),
     "factor nil": lambda hull: hull.apply("nil", [_WIDE | {"scale": [1, 0, 1]}]),
     "planes unknown": lambda hull: hull.apply("planes", [_WIDE | {"planes": "go"}]),
 }
@@ -481,6 +484,20 @@ def test_other_refusals(wigley: ah.Hull, act: Callable[[ah.Hull], object]) -> No
         act(wigley)
     assert wigley.fingerprint == before
     assert wigley.history == ()
+
+
+def test_one_factor_is_that_of_all_axes() -> None:
+    """As three equal ones; none is refused with both ways to say it."""
+    prints = set()
+    for scale in (2.0, [2.0, 2.0, 2.0]):
+        hull = small()
+        with hull.edit("twice as large") as edit:
+            edit.transform(scale=scale, drivers=groups(hull))
+        prints.add(hull.fingerprint)
+    assert len(prints) == 1
+    told = "scale is -1.0, in transform; give one factor above 0, or three along x, y and z"
+    with pytest.raises(BadInputError, match=told), small().edit("no") as edit:
+        edit.transform(scale=-1.0, drivers=["sections"])
 
 
 def test_a_refused_update_changes_no_bit(fresh_series60_70: ah.Hull) -> None:

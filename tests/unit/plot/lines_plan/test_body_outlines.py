@@ -26,6 +26,22 @@ def test_each_view_shows_the_outlines_of_bodies(lines_of: Lines) -> None:
     assert not lines_of(lines_plan(ah.examples.wigley()), "profile/boxes/sea chest$")
 
 
+def test_what_of_a_body_stands_abaft_the_middle_is_drawn_in_the_aft_body(lines_of: Lines) -> None:
+    """Its after end to the left of the centre line, its fore end to the right."""
+    hull = ah.examples.wigley(stations=9, waterlines=6)
+    with hull.edit("keel") as edit:
+        edit.body("bar keel", "keels", x=(20, 80), y=(-1, 1), z=(0.1, 0.6))
+        edit.body("abaft", "keels", x=(20, 40), y=(-1, 1), z=(0.1, 0.6))
+    figure = lines_plan(hull)
+    across = {
+        name: np.concatenate(lines_of(figure, f"body/keels/{name}$"))[:, 0]
+        for name in ("bar keel", "abaft")
+    }
+    centre = across["abaft"].max()
+    assert across["bar keel"].max() - centre == centre - across["bar keel"].min()
+    assert across["bar keel"].min() == across["abaft"].min()
+
+
 def test_outlines_are_cut_at_the_centre_plane_and_taken_to_port() -> None:
     """A body to starboard alone is drawn in its mirror image."""
     ring = np.array([[0.0, -3.0, 9.0], [0.0, 3.0, 9.0], [0.0, 3.0, 11.0], [0.0, -3.0, 11.0]])
