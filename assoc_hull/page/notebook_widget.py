@@ -37,7 +37,7 @@ def _styles() -> str:
     return scoped_styles(sheet, "assoc-hull-widget") + hidden
 
 
-class HullWidget(anywidget.AnyWidget):  # type: ignore[misc]  # it has no types
+class HullWidget(anywidget.AnyWidget):
     """A hull in a notebook; `assoc_hull.widget` makes it.
 
     Attributes
@@ -107,13 +107,13 @@ class HullWidget(anywidget.AnyWidget):  # type: ignore[misc]  # it has no types
         from IPython.display import display
 
         if self._shared is None:
-            display(self.hull)
+            display(self.hull)  # type: ignore[no-untyped-call]
             return
         still = self.hull._repr_mimebundle_()
         told = {
             "text/plain": still["text/plain"],
             "text/html": f'<div class="{_STILL}">{still["text/html"]}</div>',
         }
-        display(told, raw=True)
+        display(told, raw=True)  # type: ignore[no-untyped-call]
         found = self._repr_mimebundle_()
-        display(found[0] if isinstance(found, tuple) else found, raw=True)
+        display(found[0] if isinstance(found, tuple) else found, raw=True)  # type: ignore[no-untyped-call]

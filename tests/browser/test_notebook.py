@@ -60,7 +60,7 @@ class Lab:
 
 def notebook() -> dict[str, object]:
     """A notebook of the cells above."""
-    cells = [
+    cells: list[dict[str, object]] = [
         {"cell_type": "code", "id": f"cell-{number}", "metadata": {}, "source": text,
          "outputs": [], "execution_count": None}
         for number, text in enumerate(CELLS)

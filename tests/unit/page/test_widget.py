@@ -61,7 +61,7 @@ def test_what_a_cell_does_is_shown_in_a_view(hull: ah.Hull) -> None:
     told.until(lambda each: each.has("state"))
     seen = told.frames
     with hull.edit("in a cell") as edit:
-        edit.move("WL 4.16667 x ST 2", y=hull["WL 4.16667 x ST 2"].y + 0.01)
+        edit.move("WL 4.16667 x ST 2", y=hull.points["WL 4.16667 x ST 2"].y + 0.01)
     told.until(lambda each: each.frames > seen)
     shared.give_back()
 
@@ -135,5 +135,5 @@ def test_a_widget_ends_and_leaves_the_hull(hull: ah.Hull) -> None:
     shown.close()
     shown.close()
     with hull.edit("after") as edit:
-        edit.move("WL 4.16667 x ST 2", y=hull["WL 4.16667 x ST 2"].y + 0.01)
+        edit.move("WL 4.16667 x ST 2", y=hull.points["WL 4.16667 x ST 2"].y + 0.01)
     assert len(hull.history) == 1
