@@ -74,7 +74,7 @@ $(SITE)/.installed: requirements/docs.txt requirements/ci.txt Makefile
 	@touch $@
 
 site: $(SITE)/.installed  ## the documentation as a site with search, in build/site
-	NO_MKDOCS_2_WARNING=1 $(SITE)/bin/python -m mkdocs build --strict --quiet
+	NO_MKDOCS_2_WARNING=1 $(SITE)/bin/python -m mkdocs build --strict
 
 wheel: $(STAMP)  ## the wheel, in dist
 	rm -rf dist
