@@ -26,7 +26,7 @@ from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError, MissingExtraError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.hull.sources import examples
+from assoc_hull.hull.sources import create, examples
 from assoc_hull.hull.sources import open as open_hull
 from assoc_hull.model.objects import Curve, Point
 
@@ -275,6 +275,8 @@ class Demo:
         with self._phase("undo"):
             same = self._undo(hull, first)
         hull.close()
+        with self._phase("create"):
+            self._create()
         self.facts["seconds"]["total"] = time.perf_counter() - start
         self._times()
         return sound and same
@@ -382,6 +384,29 @@ class Demo:
             self.say(f"  {title:12} {value}")
         self.say("  the hull is as it was, to the last bit" if back == first else "  NOT THE SAME")
         return back == first
+
+    def _create(self) -> None:
+        """Create a ship from six numbers, in one call, and draw her lines."""
+        with progress("creating a ship from six numbers"):
+            hull = create(
+                length=100.0, breadth=16.0, draught=6.5, depth=9.0, cb=0.70, lcb=0.0,
+                type="general cargo",
+            )  # fmt: skip
+            found = hull.hydrostatics(estimate=False)
+        self.say("\n9. A ship from six numbers, without a parent")
+        ship = hull.particulars
+        lcb = found.lcb - 0.5 * ship.length
+        self.say(
+            f"  {ship.name}: {ship.length:g} x {ship.breadth:g} x {ship.draught:g} m, "
+            f"CB {found.cb:.6f}, LCB {lcb:.4f} m from midship, {len(hull.lines)} lines"
+        )
+        self.facts["created"] = {"particulars": ship, "cb": found.cb, "lcb": lcb}
+        if self.pictures:
+            from assoc_hull.plot import snapshot
+            from assoc_hull.plot.lines_plan.plan import lines_plan
+            from assoc_hull.plot.sheet.sheet_figure import save
+
+            save(lines_plan(snapshot(hull)), self._file("lines-created.png"))
 
     def _times(self) -> None:
         if not self.pictures:

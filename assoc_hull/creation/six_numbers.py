@@ -15,12 +15,12 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import number, positive
-from assoc_hull.creation.area_swing import swing_areas
+from assoc_hull.creation.area_swing import half_sums, swing_areas
 from assoc_hull.creation.design import Design
 from assoc_hull.creation.scaled_design import CarriedDesign, carried_places, carry_design
 from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError
 from assoc_hull.model.form_definition import FormDefinition
-from assoc_hull.model.forms.closure import close_halves, coefficients
+from assoc_hull.model.forms.closure import coefficients
 from assoc_hull.model.forms.two_halves import half_fault, half_number
 from assoc_hull.model.tables import Particulars
 
@@ -130,10 +130,13 @@ class TypedDesign:
         All its values can be read and set.
     notes : tuple of DesignNote
         One for each value that was not asked for.
+    held : bool
+        Whether CW was asked for: then the waterline gives way to no section.
     """
 
     design: Design
     notes: tuple[DesignNote, ...]
+    held: bool = False
 
 
 def design_for(
@@ -144,6 +147,7 @@ def design_for(
     bilge_radius: float | None = None,
     cw: float | None = None,
     name: str | None = None,
+    advise: bool = True,
 ) -> TypedDesign:
     """Give the design of a ship of a type.
 
@@ -161,6 +165,8 @@ def design_for(
         Waterplane coefficient; as the swing leaves it if None.
     name : str or None
         Of the ship; type and length if None.
+    advise : bool
+        Whether an error tells what CB and LCB may be, which takes seconds; else it only refuses.
 
     Raises
     ------
@@ -183,7 +189,7 @@ def design_for(
         # Of the midship section: by a formula it changes along with the block coefficient.
         return _midship(kind, attrs.evolve(six, cb=block), cm, bilge_radius)[1]
 
-    areas, way = _areas(parent, six, area)
+    areas, way = _areas(parent, six, area, advise)
     notes += _area_notes(areas, six, way)
     old = parent.definition("bilge_radius")
     old_bilge = old.value(f"{old.nodes[0]}_y")
@@ -193,10 +199,9 @@ def design_for(
     carried = CarriedDesign(parent.particulars, ship, old_bilge, bilge, places, full / first)
     design = _lines(carry_design(parent, areas, carried), parent)
     if cw is not None:
-        line = close_halves(design.definition("design_waterline"), ship, cw=cw)
-        design = design.having(line)
+        design = design.having(_with_cw(design.definition("design_waterline"), ship, cw))
     notes += _waterline_notes(design, six, cw is not None)
-    return TypedDesign(design, tuple(notes))
+    return TypedDesign(design, tuple(notes), cw is not None)
 
 
 # --------------------------------------------------------------------------------------
@@ -294,7 +299,7 @@ def _radius(cm: float, box: float) -> float:
 
 
 def _areas(
-    parent: Design, six: SixNumbers, area: Callable[[float], float]
+    parent: Design, six: SixNumbers, area: Callable[[float], float], advise: bool
 ) -> tuple[FormDefinition, str]:
     """Give the curve of areas that has CB and LCB; refuse them together with both intervals."""
     parents = parent.definition("sectional_area")
@@ -314,8 +319,9 @@ def _areas(
 
     try:
         return swung(six.cb, six.lcb)
-    except AssocHullError:
-        pass
+    except AssocHullError as error:
+        if not advise:
+            raise BadInputError("no curve of areas has both", _CALL, "give others") from error
     cm = area(six.cb) / (six.breadth * six.draught)
     span = 0.06 * six.length
     at_lcb = _room(lambda cb: made(cb, six.lcb), 0.45 * cm, 0.95 * cm, six.cb)
@@ -378,6 +384,45 @@ def with_areas(design: Design, cb: float, lcb: float) -> FormDefinition:
         # Near the last centroid that a half can have: the parallel part moves a little instead.
         return swing_areas(areas, mean, at).definition
     return found
+
+
+def _with_cw(line: FormDefinition, ship: Particulars, cw: float) -> FormDefinition:
+    """Give a waterline with a waterplane coefficient: both halves share in the change of area.
+
+    Each by the room that it has, its centroid comes out fairest: so LCF moves.
+    """
+    spans = {
+        half: abs(half_number(line, f"{half}_end") - half_number(line, f"{half}_start"))
+        for half in ("run", "entrance")
+    }
+    now = {half: half_sums(line, half)[0] for half in spans}
+    full = 2.0 * half_number(line, "full") / ship.breadth
+
+    def filled(at: float) -> FormDefinition:
+        more = 2.0 * (at / full - coefficients(line, ship).fullness)
+        room = {
+            half: spans[half] - now[half] if more > 0.0 else now[half] - _THIN * spans[half]
+            for half in spans
+        }
+        total = sum(room.values())
+        return line.having({
+            f"{half}_area": now[half] + more * room[half] / total for half in spans
+        } | {f"{half}_centroid": None for half in spans})  # fmt: skip
+
+    def made(at: float) -> bool:
+        return not any(half_fault(filled(at), half) for half in spans)
+
+    if made(cw):
+        return filled(cw)
+    usual = coefficients(line, ship).fullness * full
+    room = _room(made, 0.5 * usual, 1.0, usual)
+    if room is None:
+        raise BadInputError(f"no waterline has a cw of {cw:g}", _CALL, "leave it out")
+    raise OutOfRangeError("cw", cw, _CALL, "is that of no fair waterline", *room, "")
+
+
+_THIN = 0.45
+"""Fullness below which no half of a waterline goes."""
 
 
 def _area_notes(areas: FormDefinition, six: SixNumbers, way: str) -> list[DesignNote]:

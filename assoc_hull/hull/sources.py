@@ -20,19 +20,14 @@ from assoc_hull.arguments import (
     flag,
     instance,
     not_negative,
-    number,
-    positive,
     regular_file,
-    shown,
-    text,
 )
-from assoc_hull.errors import BadInputError, OutOfRangeError, RefusedEditError
+from assoc_hull.errors import BadInputError
 from assoc_hull.hull.hull import Hull
 
 if TYPE_CHECKING:
     from assoc_hull.creation.classical.classical_net import ClassicalDefinition
     from assoc_hull.creation.design import Design
-    from assoc_hull.creation.six_numbers import SixNumbers, TypedDesign
     from assoc_hull.geometry.patches.spline_surface import SplineSurface
     from assoc_hull.io.importing.import_hull import ImportReport
     from assoc_hull.io.slicing.cut_planes import Places
@@ -197,8 +192,8 @@ def create(
     BadInputError, OutOfRangeError
         Definitions of which no section can be made at a station: station, what is wanted and
         what can be are named. Of six numbers: one is missing, or far out of the range of the type;
-        `cb` and `lcb` fight, and the error tells what each may be beside the other; a type that
-        cannot be made well.
+        two fight, as `cb` and `lcb`, or `cm`, `bilge_radius` or `cw` does not go with them: the
+        error tells what each may be, and at both ends of that a ship was made.
     GeometryError
         A classical definition of which no line can be made.
     RefusedEditError
@@ -229,7 +224,9 @@ def create(
     six = {"length": length, "breadth": breadth, "draught": draught, "depth": depth, "cb": cb}
     given = {"cm": cm, "bilge_radius": bilge_radius, "cw": cw}
     if design is None:
-        return _from_six(type, six, lcb, lcb_percent, given, name)
+        from assoc_hull.hull.typed_ship import typed_ship
+
+        return typed_ship(type, six, lcb, lcb_percent, given, name)
     more = {**six, "lcb": lcb, "lcb_percent": lcb_percent, **given, "name": name}
     for word, value in more.items():
         if value is not None:
@@ -242,89 +239,6 @@ def create(
     hull = Hull(state)
     hull.adoption = report
     return hull
-
-
-def _from_six(
-    kind: str, six: dict[str, float | None], lcb: float | None, percent: float | None,
-    given: dict[str, float | None], name: str | None,
-) -> Hull:  # fmt: skip
-    """Create a hull from six numbers, its net closed to CB and LCB."""
-    from assoc_hull.creation.six_numbers import SixNumbers, design_for
-    from assoc_hull.creation.six_numbers_net import build_typed, dips_below_base
-    from assoc_hull.shipped.ship_types import ship_type
-
-    where = "in a ship from six numbers"
-    missing = [word for word, value in six.items() if value is None]
-    if lcb is None and percent is None:
-        missing.append("lcb")
-    if missing:
-        raise BadInputError(f"{', '.join(missing)} is missing", where, "give it, or a design")
-    if lcb is not None and percent is not None:
-        raise BadInputError("lcb and lcb_percent are both given", where, "leave one out")
-    for word, value in {**six, "lcb": lcb, "lcb_percent": percent, **given}.items():
-        # a text is a value that nobody has looked at: of a form, in other units
-        if isinstance(value, str):
-            what = f"{word} is the text {shown(value)}"
-            raise BadInputError(what, where, "give a number, without quotes")
-    numbers = {word: positive(value, word, where) for word, value in six.items()}
-    if percent is not None:
-        lcb = 0.01 * number(percent, "lcb_percent", where) * numbers["length"]
-    asked = SixNumbers(**numbers, lcb=number(lcb, "lcb", where))
-    known = {word: None if v is None else positive(v, word, where) for word, v in given.items()}
-    title = None if name is None else text(name, "name", where)
-    typed = design_for(ship_type(text(kind, "type", where)), asked, **known, name=title)
-    try:
-        state, report, typed = build_typed(typed)
-        hull, typed = _closed(Hull(state), asked, typed)
-        low = dips_below_base(hull.state)
-    except (BadInputError, OutOfRangeError, RefusedEditError) as error:
-        what = f"cb of {asked.cb:g} and lcb of {asked.lcb:g} m fight with lines of a {kind}"
-        raise BadInputError(
-            what, where, f"give another cb or lcb, or another type; what failed: {error}"
-        ) from error
-    hull.adoption, hull.notes = report, (*typed.notes, *low)
-    return hull
-
-
-_CLOSE = 2e-7
-"""CB, and LCB in parts of the length, are met within this."""
-
-
-def _closed(hull: Hull, asked: SixNumbers, typed: TypedDesign) -> tuple[Hull, TypedDesign]:
-    """Give the hull with curves of areas by which its net has CB and LCB, without history.
-
-    The net has parts beyond the ends of the curve of areas, and is a spline between stations: so
-    CB and LCB as measured are not those of the curve, by some thousandths.
-    """
-    from assoc_hull.creation.six_numbers import with_areas
-    from assoc_hull.creation.six_numbers_net import build_typed
-    from assoc_hull.model.forms.closure import coefficients
-
-    design = typed.design
-    for _ in range(4):
-        found = hull.hydrostatics(estimate=False)
-        more = asked.cb - found.cb
-        ahead = asked.lcb - (found.lcb - 0.5 * asked.length)
-        if max(abs(more), abs(ahead) / asked.length) <= _CLOSE:
-            break
-        now = coefficients(design.definition("sectional_area"), design.particulars)
-        assert now.block is not None
-        areas = with_areas(design, now.block + more, now.centroid + ahead)
-        before = design.definition("sectional_area").values
-        changes = {name: v for name, v in areas.values.items() if v != before.get(name)}
-        design = design.having(areas)
-        try:
-            with hull.edit("close CB and LCB") as edit:
-                edit.set_form(areas.name, **changes)
-        except (BadInputError, RefusedEditError):
-            # A net that does not follow is made anew.
-            state, _, typed = build_typed(attrs.evolve(typed, design=design), solve=False)
-            hull = Hull(state)
-            design = typed.design
-    hull = Hull(hull.state)
-    # What hydrostatics doubt is no ship: it refuses here, not when somebody asks for a volume.
-    hull.hydrostatics()
-    return hull, typed
 
 
 def open(path: str | os.PathLike[str], *, wait: float = 0.0, damaged: bool = False) -> Hull:

@@ -16,6 +16,7 @@ NAMES = [
     "lines-after.png",
     "lines-before.pdf",
     "lines-before.png",
+    "lines-created.png",
     "ship.hull",
 ]
 
@@ -33,6 +34,7 @@ def test_the_demo_ends_where_it_began(tmp_path: Path, capsys: pytest.CaptureFixt
     for edit in facts["edits"]:
         assert edit["reached"] == pytest.approx(edit["asked"], abs=1e-9, rel=0.01)
         assert len(edit["report"]["relofted"]) >= 10
+    assert facts["created"]["cb"] == pytest.approx(0.70, abs=1e-6)
     assert facts["why"]["name"] == "WL 0.42"
     _chain_ends_at_the_edit(facts["why"])
     folder = tmp_path / "a" / "b"

@@ -219,3 +219,33 @@ def test_a_line_is_not_shifted_below_the_base_line() -> None:
         type="general cargo", bilge_radius=5.85,
     )  # fmt: skip
     assert hull.hydrostatics().cb == pytest.approx(0.7, abs=1e-6)
+
+
+def test_values_at_the_bounds_of_a_refusal_are_taken() -> None:
+    """Both ends of the interval make a ship, to the digits that are printed."""
+    six = SIX | {"type": "general cargo", "cw": 0.7}
+    with pytest.raises(ah.errors.OutOfRangeError) as refusal:
+        ah.create(**six)  # type: ignore[arg-type]
+    error = refusal.value
+    assert f"from {error.least:.8g} to {error.most:.8g}" in str(error)
+    for value in (error.least, error.most):
+        hull = ah.create(**six | {error.name: float(f"{value:.8g}")})  # type: ignore[arg-type]
+        assert not hull.check()
+
+
+def test_refusal_names_the_two_that_fight_and_what_each_may_be() -> None:
+    """Both are arguments of `create`, LCB in the unit in which it was given."""
+    six = {name: value for name, value in SIX.items() if name != "lcb"}
+    with pytest.raises(ah.errors.OutOfRangeError) as refusal:
+        ah.create(**six, lcb_percent=5.0, type="general cargo")  # type: ignore[arg-type]
+    assert "cb of 0.7 and lcb_percent of 5 % fight" in str(refusal.value)
+    assert "keep cb and give lcb_percent from" in str(refusal.value)
+
+
+def test_a_cw_that_is_asked_for_is_that_of_the_definition() -> None:
+    """Both halves of the waterline share in it."""
+    six = SixNumbers(**SIX)
+    for cw in (0.79, 0.86):
+        design = design_for(SHIP_TYPES["general cargo"], six, cw=cw).design
+        found = coefficients(design.definition("design_waterline"), design.particulars)
+        assert found.fullness == pytest.approx(cw, abs=1e-12)
