@@ -212,7 +212,7 @@ def test_both_branches_of_the_buttock_that_touches_the_bossing_lie_on_the_hull(
         if each.gap is not None and each.b.line.name == "BTK 1" and 6.0 < each.points[0].x < 20.0
         and each.points[0].z < 8.0
     ]  # fmt: skip
-    assert len(gaps) > 8
+    assert len(gaps) == 4, "with WL 7, 5, 4 and 3; sections define the branches themselves"
     assert max(gaps) < 1e-3
 
 
