@@ -129,7 +129,9 @@ def _held_by_tangency(state: HullState, rows: IntArray, adopted: IntArray) -> In
     """Give those of adopted points, as places in `rows`, up to which a line is on a cylinder."""
     at = adopted[state.rows.kind[rows[adopted], 0] == PointKind.TANGENT]
     beside = np.clip(at[:, None] + np.array([-1, 1]), 0, len(rows) - 1)
-    return at[is_tangency(state, rows[beside].ravel()).reshape(beside.shape).any(axis=1)]
+    held = is_tangency(state, rows[beside].ravel()).reshape(beside.shape).any(axis=1)
+    found: IntArray = at[held]
+    return found
 
 
 def swap_anchors(state: HullState, curve: int, swaps: dict[int, int], journal: Journal) -> None:
