@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 from drawings.battens import classical_splines
 from drawings.biarcs import biarc_kinds
+from drawings.choi_lee import example_bossing, example_ends
 from drawings.closed_mesh import closed_mesh_stern
 from drawings.common import ship
 from drawings.comparison import comparison
@@ -229,6 +230,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "variant_areas": variant_areas,
     "variant_plan": variant_plan,
     "bossing_profile": bossing_profile,
+    "example_bossing": example_bossing,
+    "example_ends": example_ends,
     "bossing_lines": bossing_lines,
     "curvature_typical": curvature_typical,
     "curvature_mixed": curvature_mixed,

@@ -8,6 +8,7 @@ flats, knuckles and the profile.
 
 from __future__ import annotations
 
+import attrs
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
@@ -20,8 +21,10 @@ from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import HullState
 
 __all__ = [
+    "MendingPoint",
     "fairable_rows",
     "feature_rows",
+    "mending_points",
     "mending_ties",
     "net_battens",
     "reasons_to_stay",
@@ -101,7 +104,7 @@ def mending_ties(state: HullState, problem: BattenProblem) -> tuple[IntArray, cs
     problem of all other points, and displacements of all (k,) as parts (k, c) of theirs.
     """
     rows = problem.rows.tolist()
-    holds = _mending_points(state)
+    holds = mending_points(state)
     chosen = np.array([n for n, row in enumerate(rows) if row not in holds], np.int64)
     own = csr_array(
         (np.ones(len(chosen)), (chosen, np.arange(len(chosen)))), (len(rows), len(chosen))
@@ -109,7 +112,8 @@ def mending_ties(state: HullState, problem: BattenProblem) -> tuple[IntArray, cs
     held = [n for n, row in enumerate(rows) if row in holds]
     if not held:
         return chosen, own
-    beside, part = (np.array([holds[rows[n]][each] for n in held]) for each in (0, 1))
+    beside = np.array([holds[rows[n]].beside for n in held])
+    part = np.array([holds[rows[n]].part for n in held])
     free = csr_array(problem.rates[:, chosen])
     # What a held point itself would do to its neighbours is left out: two may hold each other.
     follows = csr_array(
@@ -119,12 +123,29 @@ def mending_ties(state: HullState, problem: BattenProblem) -> tuple[IntArray, cs
     return chosen, csr_array(own + put @ follows)
 
 
-def _mending_points(state: HullState) -> dict[int, tuple[tuple[int, int], float]]:
-    """Find adopted points that lie where another curve passes that their own one is watched for.
+@attrs.frozen
+class MendingPoint:
+    """What an adopted point closes the gap of.
 
-    With each go the points of the other curve before and after it, and its part of the way.
+    Attributes
+    ----------
+    crossing, side : int
+        The watched crossing, and which of its two curves is led to the other.
+    beside : (int, int)
+        The points of the other curve before and after the crossing.
+    part : float
+        Its part of the way from the one to the other.
     """
-    table, found = state.rows, dict[int, tuple[tuple[int, int], float]]()
+
+    crossing: int
+    side: int
+    beside: tuple[int, int]
+    part: float
+
+
+def mending_points(state: HullState) -> dict[int, MendingPoint]:
+    """Find adopted points that lie where another curve passes that their own one is watched for."""
+    table, found = state.rows, dict[int, MendingPoint]()
     watched = table.alive.data & (table.sort.data == Sort.CROSSING)
     watched &= table.role.data == Role.WATCHED
     for row in np.flatnonzero(watched & (table.curve.data >= 0).all(axis=1)).tolist():
@@ -139,8 +160,8 @@ def _mending_points(state: HullState) -> dict[int, tuple[tuple[int, int], float]
             knot, at = state.spline(other).knot, table.parameter.data[row, 1 - side]
             before = min(max(int(np.searchsorted(knot, at, side="right")) - 1, 0), len(knot) - 2)
             part = float((at - knot[before]) / (knot[before + 1] - knot[before]))
-            ends = state.curves.rows.data[other][before : before + 2].tolist()
-            found[int(mine[away.argmin()])] = (ends[0], ends[1]), part
+            first, last = state.curves.rows.data[other][before : before + 2].tolist()
+            found[int(mine[away.argmin()])] = MendingPoint(row, side, (first, last), part)
     return found
 
 

@@ -21,7 +21,7 @@ from assoc_hull.analysis.fairness.bent_curves import BentCurves, CurvatureRates,
 from assoc_hull.analysis.fairness.kept_signs import KeptSigns
 from assoc_hull.edit.displacement_field import SolvedField
 from assoc_hull.edit.field_moves import FieldMoves
-from assoc_hull.edit.net_battens import mending_ties, net_battens
+from assoc_hull.edit.net_battens import MendingPoint, mending_points, mending_ties, net_battens
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
@@ -67,6 +67,9 @@ _HEAVIER, _STIFFER = 2.0, 6.0
 
 _COMB, _LARGER = 2.5, 1.1
 """A comb may become so many times the parent's, or so many times what the map made of it."""
+
+_OPEN = 9e-4
+"""m: a gap that was closed, and is wider after a step, is closed again."""
 
 _FORETOLD = 1.6
 """Times that it may be foretold to become: what is carried out mends some of it."""
@@ -178,6 +181,7 @@ def fair_followers(edit: Transaction, parent: ParentLines, within: float) -> Fai
     """
     first = best = found = _Judged.of(edit.state, parent)
     keep, kept, steps, led = edit.stages, list[Step](), list[Step](), set[str]()
+    closers = mending_points(edit.state)
     for part in _PARTS:
         if not best.may_gain:
             break
@@ -187,7 +191,8 @@ def fair_followers(edit: Transaction, parent: ParentLines, within: float) -> Fai
             search = _Search.of(edit.state, parent, first, found, part * within, steps, tighter)
             step, stages = search.step(), edit.stages
             led |= search.led
-            if not step or not _carried(edit, step):
+            made = _carried(edit, step, closers) if step else ()
+            if not made:
                 break
             now = _Judged.of(edit.state, parent)
             too_large = now.sharper(first)
@@ -197,7 +202,7 @@ def fair_followers(edit: Transaction, parent: ParentLines, within: float) -> Fai
                     break
                 tighter |= too_large
                 continue
-            found, steps = now, [*steps, step]
+            found, steps = now, [*steps, *made]
             if not found.may_gain:
                 break
         if found.count < best.count:
@@ -261,15 +266,35 @@ def _carry(edit: Transaction, step: Step) -> None:
         edit.end_stage()
 
 
-def _carried(edit: Transaction, step: Step) -> bool:
-    """Carry a step; false where it is refused."""
+def _carried(
+    edit: Transaction, step: Step, closers: Mapping[int, MendingPoint]
+) -> tuple[Step, ...]:
+    """Carry a step, and then what closes gaps to where these are; nothing where it is refused."""
     stages = edit.stages
     try:
         _carry(edit, step)
+        closing = _closing(edit.state, closers)
+        if closing:
+            _carry(edit, closing)
     except RefusedEditError:
         edit.take_back(stages)
-        return False
-    return True
+        return ()
+    return (step, closing) if closing else (step,)
+
+
+def _closing(state: HullState, closers: Mapping[int, MendingPoint]) -> Step:
+    """Give the moves of adopted points to where the other curve passes now.
+
+    They have gone along to first order only, and slide where the two curves meet at a small angle.
+    """
+    table, found = state.rows, dict[str, FloatArray]()
+    for row, closer in closers.items():
+        there = table.alive[row] and table.alive[closer.crossing]
+        if there and table.gap[closer.crossing] > _OPEN * state.tolerances.factor:
+            found[str(table.key[row])] = (
+                table.spot[closer.crossing, 1 - closer.side] - table.xyz[row]
+            )
+    return found
 
 
 # --------------------------------------------------------------------------------------

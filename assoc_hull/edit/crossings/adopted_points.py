@@ -12,7 +12,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.edit.crossings.tangencies import is_tangency
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.generated_curves import attached_curves, kept_rows
 from assoc_hull.model.kinds import Sort
@@ -70,7 +71,8 @@ def insert_defining_point(maker: Maker, curve: int, row: int) -> None:
 # Riding. An adopted point holds a shape that crossings alone cannot. Its place is its base plus a
 # linear blend of the displacements of its nearest driven neighbours since they were last linked;
 # so there and back is exact. A generated point does not ride, and none that was one: definitions
-# place it, or a designer did. Nor does what stands in for a crossing.
+# place it, or a designer did. Nor does what stands in for a crossing, nor what holds a line on a
+# cylinder.
 
 
 def link_adopted_points(state: HullState, curves: IntArray, journal: Journal) -> None:
@@ -104,6 +106,7 @@ def _riders(
     kept, stand_ins = kept_rows(state), np.array([*state.rows.stands_for.data.given], np.int64)
     if len(kept) or len(stand_ins):
         rides &= ~np.isin(rows, np.concatenate([kept, stand_ins]))
+    rides[_held_by_tangency(state, rows, np.flatnonzero(rides))] = False
     adopted, others = np.flatnonzero(rides), np.flatnonzero(~rides)
     if not len(adopted):
         return None
@@ -120,6 +123,15 @@ def _riders(
         # What rode with a crossing goes on with its stand-in.
         driven |= np.isin(anchor, stand_ins) & (anchor == state.rows.anchor[rows[adopted]])
     return rows, owner, adopted, pair, np.where(driven, anchor, -1)
+
+
+def _held_by_tangency(state: HullState, rows: IntArray, adopted: IntArray) -> IntArray:
+    """Give those of adopted points, as places in `rows`, up to which a line is on a cylinder."""
+    at = adopted[state.rows.kind[rows[adopted], 0] == PointKind.TANGENT]
+    beside = np.clip(at[:, None] + np.array([-1, 1]), 0, len(rows) - 1)
+    held = is_tangency(state, rows[beside].ravel()).reshape(beside.shape).any(axis=1)
+    found: IntArray = at[held]
+    return found
 
 
 def swap_anchors(state: HullState, curve: int, swaps: dict[int, int], journal: Journal) -> None:

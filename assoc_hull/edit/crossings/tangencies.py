@@ -13,17 +13,18 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, freeze
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.make_objects import Maker
+from assoc_hull.model.make_objects import Maker, PointSpec
 from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = [
     "NO_ROOT",
     "PlaneTangency",
     "clear_at_tangencies",
+    "hold_along_tangencies",
     "is_tangency",
     "runs_along_tangency",
     "tangency_rows",
@@ -45,6 +46,11 @@ _SAME = 1e-3
 """Times the same: points of a curve as near as this (m) are one."""
 
 _PROBES = 33
+
+_APART = 1e-3
+"""Times the same: so far (m) a branch that runs along a cylinder stays on its side of the line of
+touch, so that it meets no plane through it twice; off a cylinder of 1 m that is half a micrometre.
+"""
 
 
 @attrs.frozen(eq=False)
@@ -117,6 +123,52 @@ def clear_at_tangencies(maker: Maker, touches: Sequence[PlaneTangency]) -> None:
         maker.remove_rows(gone[adopted])
         left = gone[~adopted]
         maker.roles(left, np.full(len(left), int(Role.DRIVES_B)))
+
+
+def hold_along_tangencies(maker: Maker, line: int, touches: Sequence[PlaneTangency]) -> None:
+    """Let both branches of a line that turns at a round end run straight along the cylinder.
+
+    Sections of a cylinder are touched and not crossed, so they give the line no point. Where the
+    last of them is touched each branch gets an adopted tangent point: up to there it is straight.
+    """
+    state = maker.state
+    for curve in state.lines.curves[line]:
+        rows: IntArray = state.curves.rows[curve]
+        for row in rows[is_tangency(state, rows)].tolist():
+            order = state.curves.rows[curve].tolist()
+            at = order.index(row)
+            if not 0 < at < len(order) - 1:
+                continue
+            specs = [_held(state, curve, row, order[at + step], step, touches) for step in (-1, 1)]
+            made = [maker.points([each]).tolist() if each else [] for each in specs]
+            maker.define(curve, [*order[:at], *made[0], row, *made[1], *order[at + 1 :]])
+
+
+def _held(
+    state: HullState, curve: int, turn: int, beside: int, step: int,
+    touches: Sequence[PlaneTangency],
+) -> PointSpec | None:  # fmt: skip
+    """Give the point up to which a branch is straight, between its turn and the point beside it."""
+    start: FloatArray = state.rows.xyz[turn]
+    away = state.rows.xyz[beside] - start
+    found, along, sense = None, 0.0, 1.0 if step > 0 else -1.0
+    for each in touches:
+        chord = each.xyz - start
+        length, part = float(np.sqrt(chord @ chord)), float(chord @ away)
+        # a touch beyond the next point of the branch is of another cylinder
+        if along < length and 0.0 < part < float(away @ away):
+            found, along = chord, length
+    if found is None:
+        return None
+    unit = found / along
+    across = away - (away @ unit) * unit
+    size = float(np.sqrt(across @ across))
+    apart = state.tolerances.factor * _APART
+    if size <= apart or away @ unit <= along:
+        return None
+    chord = found + across * (apart / size)
+    direction = sense * chord / np.sqrt(chord @ chord)
+    return PointSpec(curve, start + chord, Sort.ADOPTED, PointKind.TANGENT, direction)
 
 
 def runs_along_tangency(state: HullState, curve: int, spot: int) -> bool:

@@ -21,6 +21,7 @@ from assoc_hull.edit.crossings.tangencies import (
     NO_ROOT,
     PlaneTangency,
     clear_at_tangencies,
+    hold_along_tangencies,
     tangency_rows,
     without_double_roots,
 )
@@ -351,6 +352,7 @@ def bring_back_line(
     put(state.lines.alive, [line], True)
     put(state.curves.alive, state.lines.curves[line], True)
     recut_line(edit, line, marks, _still_there(edit, line, known), stays)
+    hold_along_tangencies(edit.maker, line, touches)
 
 
 def _let_go(edit: Transaction, line: int, error: NoMeetingError) -> None:

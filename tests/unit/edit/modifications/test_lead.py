@@ -114,11 +114,11 @@ def test_the_ends_of_waterlines_follow_two_buttocks_and_stay_fair(
     """After a point of the lowest waterline has moved, A and B of both buttocks are asked for."""
     state = carrier.document.state
     with carrier.edit("a point of WL 0.5") as edit:
-        place = carrier.points["WL 0.5 x ST 16"].position
-        edit.move("WL 0.5 x ST 16", y=place[1] + 0.001)
+        edit.move("WL 0.5 x ST 4", y=carrier.points["WL 0.5 x ST 4"].y + 0.002)
     first, before = carrier.fingerprint, _signs(state)
     goals = {name: _goals(carrier, name) for names in edits for name in names}
     followed: set[str] = set()
+    added: list[ah.Point] = []
     for names in edits:
         xyz, normal = state.rows.xyz.data.copy(), hull_normals(state).copy()
         free = fairable_rows(state)
@@ -129,6 +129,7 @@ def test_the_ends_of_waterlines_follow_two_buttocks_and_stay_fair(
         assert [len(each) for each in made] == [1] * len(names), "A is a crossing, B is added"
         assert max(_misses(carrier, name, goals[name]) for name in names) < 1e-9
         most = max(abs(amount) for led in report.led for _, amount in led.asked)
+        added += [point for points in made for point in points]
         if len(edits) == 1:
             _refuse_swings(carrier, xyz, normal, free, most)
         assert {led.line for led in report.led} == {carrier.lines[name].id for name in names}
@@ -136,6 +137,11 @@ def test_the_ends_of_waterlines_follow_two_buttocks_and_stay_fair(
         assert report.largest_gap <= 2.23e-3 + 1e-3
         assert not carrier.check()
         assert not carrier.verify()
+    # B of the first line is there still when the second has led.
+    order = [name for names in edits for name in names]
+    for name, point in zip(order, added, strict=True):
+        assert point.sort == "placed"
+        assert np.array_equal(point.position, goals[name][1])
     assert not _gained(before, state)
     assert len(state.live("curves")) == 86
     # Where one line leads after the other, less is asked of each, and ST 0.75 is out of reach.
