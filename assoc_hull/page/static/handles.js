@@ -17,12 +17,26 @@ export function drawHandles(view, g, ink) {
   for (const row of drawn) if (shown.has(row)) dot(view, g, ink, row, 3, false);
   if (refusal) for (const row of refusal.named) if (shown.has(row) && row !== refusal.row) outline(view, g, ink, row);
   if (hover.row !== null && shown.has(hover.row)) dot(view, g, ink, hover.row, 4.5, true);
+  if (store.shaping) drawShaping(view, g, ink, store.shaping);
   const chosen = held?.row ?? selection.row;
   if (chosen === null || !shown.has(chosen)) return;
   if (held) drawHeld(view, g, ink);
   else {
     dot(view, g, ink, chosen, 5.5, true);
     ring(view, g, ink, chosen);
+  }
+}
+
+/** Where a line is to pass. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {{curve: number, places: number[][]}} shaping */
+function drawShaping(view, g, ink, {curve, places}) {
+  const line = view.store.net?.lineOf(curve);
+  if (!line || !view.shows(line)) return;
+  g.strokeStyle = g.fillStyle = ink.hot;
+  g.lineWidth = 2;
+  for (const each of places) {
+    const [x, y] = view.atPlace(each);
+    g.strokeRect(x - 5, y - 5, 10, 10);
+    g.fillRect(x - 1, y - 1, 2, 2);
   }
 }
 

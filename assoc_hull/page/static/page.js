@@ -7,6 +7,7 @@ import {GHOST, LIVE, NET, VERSION, parseFrame} from "./wire.js";
 import {CROSSING, Net} from "./net.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
+import {Shaper} from "./shape.js";
 import {Speaker} from "./speak.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
@@ -61,6 +62,8 @@ export class Page {
     this.hand.onLet = (held, wish) => this.#proposed(held, wish);
     for (const kind of KINDS) this.pointers[kind].onInsert = (place) => this.#insertAt(place);
     for (const kind of KINDS) this.views[kind].upper.addEventListener("focus", () => this.#look(kind));
+    this.shaper = new Shaper(this);
+    for (const kind of KINDS) this.pointers[kind].shaper = this.shaper;
     this.active = /** @type {Kind} */ ("body");
     this.panel = new Panel(this, aside);
     this.keys = new Keys(this);
@@ -257,6 +260,7 @@ export class Page {
   insert() {
     const {selection} = this.store;
     if (selection.curve === null) return this.say("Choose a line first: click it.");
+    this.shaper.stop();
     this.store.inserting = selection.curve;
     this.dropGhost();
     this.say("Click where the line is to go through: beside it, the line is led there. Esc cancels.");
@@ -270,7 +274,7 @@ export class Page {
     this.panel.proposal.show(`insert a point into ${name} at (${place.map((each) => each.toFixed(3)).join(", ")}) m`, [{op: "insert", curve: name, place, lead: !store.tools.pinned}]);
   }
 
-  /** @param {"fair" | "pinned"} what */
+  /** @param {"fair" | "fairShapes" | "pinned"} what */
   toggleTool(what) {
     this.store.tools[what] = !this.store.tools[what];
     this.store.changed("panel");
@@ -463,16 +467,17 @@ export class Page {
 
   keep() {
     const {show, tools, gain, squeeze, theme} = this.store;
-    this.options.keep("looks", JSON.stringify({show, how: tools.how, fine: tools.fine, fair: tools.fair, pinned: tools.pinned, gain, squeeze, theme}));
+    this.options.keep("looks", JSON.stringify({show, how: tools.how, fine: tools.fine, fair: tools.fair, fairShapes: tools.fairShapes, pinned: tools.pinned, gain, squeeze, theme}));
   }
 
   #restore() {
     try {
-      const {show, how, fine, fair, pinned, gain, squeeze, theme} = JSON.parse(this.options.kept("looks") ?? "{}");
+      const {show, how, fine, fair, fairShapes, pinned, gain, squeeze, theme} = JSON.parse(this.options.kept("looks") ?? "{}");
       for (const name of /** @type {(keyof Store["show"])[]} */ (Object.keys(this.store.show))) if (typeof show?.[name] === "boolean") this.store.show[name] = show[name];
       if (how === "pull" || how === "move") this.store.tools.how = how;
       this.store.tools.fine = fine === true;
       this.store.tools.fair = fair === true;
+      this.store.tools.fairShapes = fairShapes !== false;
       this.store.tools.pinned = pinned === true;
       if (gain > 0 && gain < 100) this.store.gain = gain;
       if ([1, 2, 5, 10].includes(squeeze)) this.store.squeeze = squeeze;

@@ -53,7 +53,7 @@ export class Panel {
     /** All that ask the server: an answer is for one of them. */
     this.askers = [this.proposal, this.why, this.past, this.numbers, this.fair, this.vary, this.problems, new Files(page, this.parts.Export)];
     this.radii = [0, 1].map((i) => this.#radius(i));
-    this.switches = ["fair-pull", "pinned", "insert"].map((id) => {
+    this.switches = ["fair-pull", "pinned", "insert", "reshape", "fair-shape"].map((id) => {
       const action = /** @type {import("./actions.js").Action} */ (ACTIONS.find((each) => each.id === id)), found = button(action.label?.(page) ?? "", () => action.run(page));
       found.dataset.action = id;
       found.title = `${action.words} (${action.keys.map(keyWords).join(", ")})`;

@@ -30,9 +30,11 @@ export class Store {
     this.refusal = null;
     this.selection = {curve: /** @type {number | null} */ (null), row: /** @type {number | null} */ (null)};
     this.hover = {curve: /** @type {number | null} */ (null), row: /** @type {number | null} */ (null)};
-    this.tools = {how: /** @type {"pull" | "move"} */ ("pull"), radius: /** @type {number[] | null} */ (null), fine: false, fair: false, pinned: false};
+    this.tools = {how: /** @type {"pull" | "move"} */ ("pull"), radius: /** @type {number[] | null} */ (null), fine: false, fair: false, fairShapes: true, pinned: false};
     /** The curve that the next click inserts a point into. @type {number | null} */
     this.inserting = null;
+    /** The line that is being re-shaped, and where it is to pass. @type {{curve: number, places: number[][]} | null} */
+    this.shaping = null;
     this.show = {combs: true, allCombs: false, movement: true, labels: true, points: false};
     this.gain = 1;
     this.squeeze = 1;
@@ -87,7 +89,7 @@ export class Store {
     this.overlay = this.ghost = null;
     const row = kept.point === null ? null : net.find(kept.point);
     const curve = [...net.curves].find(([, {name}]) => name === kept.curve)?.[0] ?? null;
-    this.inserting = null;
+    this.inserting = this.shaping = null;
     this.selection = {row, curve};
     this.hover = {row: null, curve: null};
     // A pull that is to be fair is wide: an eighth of the length, and a third of the breadth.
