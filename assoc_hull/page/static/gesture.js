@@ -60,6 +60,7 @@ export class Pointers {
     }
     if (this.press) return;
     if (store.inserting !== null && event.button === 0 && view.kind !== "wire") return this.onInsert?.(this.#placeOn(store.inserting, x, y));
+    store.marked = null;
     if (store.refusal || store.problem) {
       store.refusal = store.problem = null;
       store.changed("overlay", "panel");

@@ -17,6 +17,7 @@ export function drawHandles(view, g, ink) {
   for (const row of drawn) if (shown.has(row)) dot(view, g, ink, row, 3, false);
   if (refusal) for (const row of refusal.named) if (shown.has(row) && row !== refusal.row) outline(view, g, ink, row);
   if (hover.row !== null && shown.has(hover.row)) dot(view, g, ink, hover.row, 4.5, true);
+  if (store.marked) cross(view, g, ink, store.marked);
   if (store.shaping) drawShaping(view, g, ink, store.shaping);
   const chosen = held?.row ?? selection.row;
   if (chosen === null || !shown.has(chosen)) return;
@@ -25,6 +26,20 @@ export function drawHandles(view, g, ink) {
     dot(view, g, ink, chosen, 5.5, true);
     ring(view, g, ink, chosen);
   }
+}
+
+/** A place that a finding names. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {number[]} place */
+function cross(view, g, ink, place) {
+  const [x, y] = view.atPlace(place);
+  g.beginPath();
+  g.arc(x, y, 16, 0, 7);
+  for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+    g.moveTo(x + 12 * dx, y + 12 * dy);
+    g.lineTo(x + 24 * dx, y + 24 * dy);
+  }
+  g.strokeStyle = ink.hot;
+  g.lineWidth = 2;
+  g.stroke();
 }
 
 /** Where a line is to pass. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {{curve: number, places: number[][]}} shaping */

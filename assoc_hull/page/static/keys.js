@@ -63,6 +63,9 @@ export class Keys {
     } else if (store.refusal || store.problem) {
       store.refusal = store.problem = null;
       store.changed("overlay", "panel");
+    } else if (store.marked) {
+      store.marked = null;
+      store.changed("overlay");
     } else if (page.shaper.stop()) page.say("Nothing is re-shaped.");
     else if (store.inserting !== null) {
       store.inserting = null;

@@ -23,6 +23,7 @@ import {alongCurve} from "./lists.js";
 /** @typedef {{send: (message: object) => void}} Link */
 /** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, within?: AbortSignal}} Options */
 
+const NEAR = 60; // pixels for a metre, at least, where a finding is looked at
 const KINDS = /** @type {Kind[]} */ (["body", "profile", "half", "wire"]);
 
 /** @param {HTMLElement} root @param {Options} options */
@@ -419,6 +420,18 @@ export class Page {
     this.fly(1);
     const {net} = this.store, point = row === null ? undefined : net?.points.get(row);
     this.say(point && net ? `${point.name}, ${net.roleWords(point)}` : curve === null ? "" : net?.curveName(curve) ?? "");
+  }
+
+  /** Leads to what a finding names: all views come to the place, near enough to see it, and it is marked. @param {string} object @param {number[] | null} place */
+  goTo(object, place) {
+    const {store} = this, {net} = store, row = net?.find(object) ?? null, point = row === null ? undefined : net?.points.get(row);
+    const at = place ?? (row === null ? undefined : store.placeOf(row)), curve = point?.a ?? [...net?.curves ?? []].find(([, each]) => each.name === object || each.line.name === object)?.[0] ?? null;
+    if (!at) return this.find(object);
+    store.select(row, curve);
+    store.marked = [...at];
+    for (const view of Object.values(this.views)) if (view.shown && view.kind !== "wire") view.centre(at, NEAR);
+    store.changed("hull", "overlay");
+    this.say(`${object} at (${[...at].map((each) => each.toFixed(3)).join(", ")}) m`);
   }
 
   search() { this.bar.search.focus(); }

@@ -226,6 +226,13 @@ export class View {
     this.#left();
   }
 
+  /** Brings a place to the middle, with so many pixels for a metre at least. @param {ArrayLike<number>} place @param {number} scale */
+  centre(place, scale) {
+    if (this.axis.s < scale) this.zoom(...this.atPlace(place), scale / this.axis.s);
+    const [x, y] = this.atPlace(place);
+    this.pan(this.width / 2 - x, this.height / 2 - y);
+  }
+
   /** @param {number} dx @param {number} dy */
   turn(dx, dy) {
     this.yaw += dx * 0.008;
