@@ -3,7 +3,7 @@
 import {ACTIONS, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
 import {Keys} from "./keys.js";
-import {GHOST, LIVE, NET, VERSION, parseFrame} from "./wire.js";
+import {GHOST, LIVE, NET, THEIRS, VERSION, parseFrame} from "./wire.js";
 import {CROSSING, Net} from "./net.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
@@ -123,6 +123,10 @@ export class Page {
       store.last = message;
       this.say(`${message.name}: ${message.relofted} curves followed.`);
       store.changed("panel");
+    } else if (message.t === "hold") {
+      store.theirs = message.row === null ? null : {author: message.author, row: message.row, frame: null};
+      if (store.theirs) this.speaker.say(`${message.author} holds ${store.net?.points.get(message.row)?.name ?? "a point"}`);
+      store.changed("overlay", "panel");
     } else if (message.t === "theirs") {
       store.last = message;
       store.changed("panel");
@@ -162,6 +166,11 @@ export class Page {
       if (asked !== undefined) this.stats.steps.push(performance.now() - asked.time);
       if (hand.live(frame)) this.speaker.listen(store);
       hand.asked.delete(frame.seq);
+    } else if (frame.kind === THEIRS) {
+      if (store.theirs && frame.state === store.state) {
+        store.theirs.frame = frame;
+        store.changed("overlay");
+      }
     } else if (frame.kind === GHOST) {
       // One of a state that has passed would be compared with another hull.
       if (frame.state === store.state && frame.seq === this.wanted) {
@@ -178,6 +187,7 @@ export class Page {
   #lost(how, reason) {
     this.letGo();
     this.hand.drop();
+    this.store.theirs = null;
     this.store.connection = how;
     this.store.reason = reason;
     this.store.changed("overlay", "panel");
@@ -236,7 +246,7 @@ export class Page {
     this.status.textContent = store.connection === "connecting" ? "Connecting" : hints;
     const view = this.activeView(), pixel = 1e3 / view.axis.s * (this.store.tools.fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
     const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
-    this.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
+    this.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.net?.points.get(store.theirs.row)?.name ?? "a point"}` : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
   }
 
   // ---- what the actions do

@@ -121,6 +121,7 @@ export function paintOverlay(view, ink) {
   if (!net) return;
   g.lineJoin = g.lineCap = "round";
   if (store.ghost) drawGhost(view, g, ink, store.ghost);
+  if (store.theirs?.frame) drawGhost(view, g, {...ink, live: ink.water, spike: ink.water}, store.theirs.frame);
   if (overlay) drawMoved(view, g, ink, overlay.frame, overlay.predicted);
   const chosen = selection.curve;
   if (hover.curve !== null && hover.curve !== chosen) stroke(view, g, hover.curve, ink.ink, 1.6);
@@ -136,7 +137,7 @@ export function paintOverlay(view, ink) {
 function noteOf(view) {
   const words = [];
   if (view.kind === "wire") return "";
-  if ((view.store.overlay || view.store.ghost) && view.store.show.movement && view.magnified) words.push(`movement × ${view.magnified.toLocaleString("en")}`);
+  if ((view.store.overlay || view.store.ghost || view.store.theirs?.frame) && view.store.show.movement && view.magnified) words.push(`movement × ${view.magnified.toLocaleString("en")}`);
   const tall = view.sy / view.axis.s;
   if (tall > 1.01) words.push(`heights × ${tall.toFixed(1)}`);
   return words.join(" · ");
@@ -153,7 +154,7 @@ function stroke(view, g, id, colour, width) {
   g.stroke();
 }
 
-/** A variant that is shown, dashed. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame */
+/** A variant, or what follows the hand of another, dashed. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame */
 function drawGhost(view, g, ink, frame) {
   const {net, curves, show, overlay} = view.store, moved = movementOf(frame, curves);
   const seen = (/** @type {number} */ id) => {

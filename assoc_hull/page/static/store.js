@@ -24,6 +24,8 @@ export class Store {
     this.overlay = null;
     /** A variant that is shown, not made. @type {Frame | null} */
     this.ghost = null;
+    /** What somebody else has in hand, and what follows it. @type {{author: string, row: number, frame: Frame | null} | null} */
+    this.theirs = null;
     /** @type {Held | null} */
     this.held = null;
     /** @type {Refusal | null} */
@@ -88,7 +90,7 @@ export class Store {
     this.curves = frame.curves;
     this.places = frame.places;
     this.state = frame.state;
-    this.overlay = this.ghost = null;
+    this.overlay = this.ghost = this.theirs = null;
     const row = kept.point === null ? null : net.find(kept.point);
     const curve = [...net.curves].find(([, {name}]) => name === kept.curve)?.[0] ?? null;
     this.inserting = this.shaping = null;
@@ -104,7 +106,7 @@ export class Store {
     for (const [id, curve] of frame.curves) this.curves.set(id, curve);
     for (const [row, place] of frame.places) this.places.set(row, place);
     this.state = frame.state;
-    this.overlay = this.ghost = null;
+    this.overlay = this.ghost = this.theirs = null;
     this.changed("hull", "overlay", "panel");
   }
 }
