@@ -37,6 +37,8 @@ export class Pointers {
     this.hand.onGrip = null;
     /** Told where a point is to be inserted. @type {((place: number[] | null) => void) | null} */
     this.onInsert = null;
+    /** May take a click to place a picture. @type {((x: number, y: number) => boolean) | null} */
+    this.onPlace = null;
     /** Takes places while a line is re-shaped. @type {import("./shape.js").Shaper | null} */
     this.shaper = null;
   }
@@ -59,6 +61,7 @@ export class Pointers {
       return;
     }
     if (this.press) return;
+    if (event.button === 0 && this.onPlace?.(x, y)) return;
     if (store.inserting !== null && event.button === 0 && view.kind !== "wire") return this.onInsert?.(this.#placeOn(store.inserting, x, y));
     store.marked = null;
     if (store.refusal || store.problem) {

@@ -5,6 +5,7 @@ import {Hand} from "./hand.js";
 import {Keys} from "./keys.js";
 import {GHOST, LIVE, NET, THEIRS, VERSION, parseFrame} from "./wire.js";
 import {CROSSING, Net} from "./net.js";
+import {keepLooks, restoreLooks} from "./looks.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
 import {Shaper} from "./shape.js";
@@ -22,6 +23,7 @@ import {alongCurve} from "./lists.js";
 /** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */
 /** @typedef {{send: (message: object) => void}} Link */
 /** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, within?: AbortSignal}} Options */
+/** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, upload?: (file: File) => Promise<any>}} Options */
 
 const NEAR = 60; // pixels for a metre, at least, where a finding is looked at
 const KINDS = /** @type {Kind[]} */ (["body", "profile", "half", "wire"]);
@@ -67,6 +69,7 @@ export class Page {
     for (const kind of KINDS) this.pointers[kind].shaper = this.shaper;
     this.active = /** @type {Kind} */ ("body");
     this.panel = new Panel(this, aside);
+    for (const kind of KINDS) this.pointers[kind].onPlace = (x, y) => this.panel.beside.click(this.views[kind], x, y);
     this.keys = new Keys(this);
     this.panelStale = true;
     this.pending = 0;
@@ -80,7 +83,7 @@ export class Page {
     /** Counts and times for who measures. */
     this.stats = {frames: 0, steps: /** @type {number[]} */ ([]), drawn: /** @type {number[]} */ ([]), bytes: 0};
     this.store.listeners.add((what) => this.#stale(what));
-    this.#restore();
+    restoreLooks(this);
     this.dress();
     const sizes = new ResizeObserver(() => this.#stale("hull")), signal = options.within;
     sizes.observe(views);
@@ -488,25 +491,5 @@ export class Page {
     this.bar.sheet(ACTIONS.map(({words, keys}) => [words, keys.map(keyWords).join(" or ")]));
   }
 
-  keep() {
-    const {show, tools, gain, squeeze, theme} = this.store;
-    this.options.keep("looks", JSON.stringify({show, how: tools.how, fine: tools.fine, fair: tools.fair, fairShapes: tools.fairShapes, pinned: tools.pinned, gain, squeeze, theme}));
-  }
-
-  #restore() {
-    try {
-      const {show, how, fine, fair, fairShapes, pinned, gain, squeeze, theme} = JSON.parse(this.options.kept("looks") ?? "{}");
-      for (const name of /** @type {(keyof Store["show"])[]} */ (Object.keys(this.store.show))) if (typeof show?.[name] === "boolean") this.store.show[name] = show[name];
-      if (how === "pull" || how === "move") this.store.tools.how = how;
-      this.store.tools.fine = fine === true;
-      this.store.tools.fair = fair === true;
-      this.store.tools.fairShapes = fairShapes !== false;
-      this.store.tools.pinned = pinned === true;
-      if (gain > 0 && gain < 100) this.store.gain = gain;
-      if ([1, 2, 5, 10].includes(squeeze)) this.store.squeeze = squeeze;
-      if (["auto", "light", "dark"].includes(theme)) this.store.theme = theme;
-    } catch {
-      this.options.keep("looks", "{}"); // what was kept is none of ours
-    }
-  }
+  keep() { keepLooks(this); }
 }

@@ -3,6 +3,7 @@
 import {evaluate, normalMovement} from "./hermite.js";
 import {combScale, inflections, teeth} from "./comb.js";
 import {drawLabels} from "./labels.js";
+import {drawBeside, drawPicture} from "./drop.js";
 import {diamond, drawHandles} from "./handles.js";
 
 /** @typedef {import("./view.js").View} View */
@@ -19,6 +20,7 @@ export function paintHull(view, ink) {
   view.stale.hull = false;
   view.rowsShown = null;
   if (!net) return;
+  drawPicture(view, g);
   if (view.kind !== "wire") drawGrid(view, g, ink);
   g.lineJoin = "round";
   const families = new Map();
@@ -120,6 +122,7 @@ export function paintOverlay(view, ink) {
   view.note.textContent = noteOf(view);
   if (!net) return;
   g.lineJoin = g.lineCap = "round";
+  drawBeside(view, g, ink.soft);
   if (store.ghost) drawGhost(view, g, ink, store.ghost);
   if (store.theirs?.frame) drawGhost(view, g, {...ink, live: ink.water, spike: ink.water}, store.theirs.frame);
   if (overlay) drawMoved(view, g, ink, overlay.frame, overlay.predicted);

@@ -37,6 +37,8 @@ export class Store {
     this.inserting = null;
     /** The line that is being re-shaped, and where it is to pass. @type {{curve: number, places: number[][]} | null} */
     this.shaping = null;
+    /** A hull of a file, shown beside. @type {{lines: import("./net.js").Line[], frame: Frame} | null} */
+    this.beside = null;
     /** A place that somebody is led to. @type {number[] | null} */
     this.marked = null;
     this.show = {combs: true, allCombs: false, movement: true, labels: true, points: false};

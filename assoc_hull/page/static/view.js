@@ -56,6 +56,8 @@ export class View {
     this.pathsStale = true;
     /** @type {number[] | null} */
     this.rowsShown = null;
+    /** A picture to trace: its upper left corner and the size of its pixels, m. @type {{image: ImageBitmap, x: number, y: number, across: number, up: number} | null} */
+    this.picture = null;
     this.magnified = 0;
     /** @type {Map<string, number>} */
     this.scales = new Map();
