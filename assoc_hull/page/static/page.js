@@ -243,7 +243,8 @@ export class Page {
     this.root.classList.toggle("gone", gone);
     this.banner.hidden = !gone && !store.problem;
     this.banner.textContent = gone ? store.reason : store.problem ?? "";
-    const hints = held?.how === "pull" ? "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
+    const hints = store.shaping ? "Re-shape: click where the line is to pass, drag a place, Backspace removes the last, Enter shows the answer, Esc gives up"
+      : held?.how === "pull" ? "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
       : held ? "Move: Alt is ten times finer, Shift locks an axis, Esc cancels"
       : store.selection.row !== null ? "Drag, or use the arrows: 1 mm, Shift 10 mm, Alt 0.1 mm" : "Click a point or a line; drag the ground to pan, the wheel zooms";
     this.status.textContent = store.connection === "connecting" ? "Connecting" : hints;
