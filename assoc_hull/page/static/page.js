@@ -22,8 +22,7 @@ import {alongCurve} from "./lists.js";
 /** @typedef {import("./view.js").Kind} Kind */
 /** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */
 /** @typedef {{send: (message: object) => void}} Link */
-/** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, within?: AbortSignal}} Options */
-/** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, upload?: (file: File) => Promise<any>}} Options */
+/** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, within?: AbortSignal, upload?: (file: File) => Promise<any>}} Options */
 
 const NEAR = 60; // pixels for a metre, at least, where a finding is looked at
 const KINDS = /** @type {Kind[]} */ (["body", "profile", "half", "wire"]);
