@@ -40,7 +40,7 @@ test-page: $(VENV)/.page  ## the fairing page in a real browser, on two processe
 		"or name one: make test-page BROWSER=/path" >&2; exit 2; }
 	@if command -v npm >/dev/null && $(MAKE) --no-print-directory $(NPM)/.installed; then \
 		$(NPM)/node_modules/.bin/tsc -p tests/browser/tsconfig.json; \
-		else echo "npm is missing: types and accessibility are NOT checked"; fi
+		else echo "npm is missing: types, accessibility and pure modules are NOT checked"; fi
 	ASSOC_HULL_BROWSER="$(BROWSER)" $(BIN)/python -m pytest -n 2 tests/browser $(ARGS)
 
 # Nothing of it is shipped: it looks at the types of the page's modules, and at its accessibility.

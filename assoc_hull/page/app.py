@@ -6,7 +6,10 @@ Origin: both are compared with a list, whole. Nothing comes from the disk by a n
 
 from __future__ import annotations
 
+import asyncio
 import colorsys
+import hmac
+import logging
 from collections.abc import Awaitable, Callable, Mapping, MutableMapping
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
@@ -14,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from assoc_hull.page.connection import Connection
+from assoc_hull.page.dropped import MOST_BYTES, read_dropped
 from assoc_hull.page.session import Session
 from assoc_hull.plot.sheet.paper import FAMILY_COLOURS
 
@@ -138,10 +142,12 @@ def _header(scope: Scope, name: bytes) -> str | None:
 def make_app(session: Session, token: str, port: int, visitors: Visitors) -> App:
     """Make the application that serves the page of a session."""
     from starlette.applications import Starlette
+    from starlette.responses import JSONResponse
     from starlette.responses import Response as Answer
     from starlette.routing import Route, WebSocketRoute
 
     known, about = static_files(), headers(port)
+    reading = asyncio.Semaphore(1)
 
     async def file(request: Request) -> Response:
         name = request.path_params.get("name", "index.html")
@@ -149,6 +155,20 @@ def make_app(session: Session, token: str, port: int, visitors: Visitors) -> App
             return Answer("there is no such file", 404, about, "text/plain")
         body, kind = known[name]
         return Answer(body, 200, about, kind)
+
+    async def drop(request: Request) -> Response:
+        # A page elsewhere cannot send this header unasked, and does not know the token.
+        if not hmac.compare_digest(request.headers.get("x-token", "").encode(), token.encode()):
+            return Answer("this server answers to its own page only", 403, about, "text/plain")
+        body = bytearray()
+        async for part in request.stream():
+            body += part
+            if len(body) > MOST_BYTES:
+                return Answer("the file is too large", 413, about, "text/plain")
+        name = request.query_params.get("name", "")
+        async with reading:  # one at a time: a drag goes on meanwhile
+            found = await asyncio.to_thread(_told_of, bytes(body), name)
+        return JSONResponse(found, 200, about)
 
     async def talk(socket: WebSocket) -> None:
         visitors.now, visitors.ever = visitors.now + 1, True
@@ -160,6 +180,16 @@ def make_app(session: Session, token: str, port: int, visitors: Visitors) -> App
     routes = [
         Route("/", file, methods=["GET"]),
         WebSocketRoute("/socket", talk),
+        Route("/drop", drop, methods=["POST"]),
         Route("/{name}", file, methods=["GET"]),
     ]
     return Guard(Starlette(routes=routes), port)
+
+
+def _told_of(data: bytes, name: str) -> dict[str, Any]:
+    """Read a dropped file; whatever fails is a sentence."""
+    try:
+        return read_dropped(data, name)
+    except Exception as error:  # a page that falls silent is of no use to a designer
+        logging.getLogger("assoc_hull.page").exception("a dropped file")
+        return {"problem": f"an error of this program: {type(error).__name__} {error}"}

@@ -274,6 +274,11 @@ class Session:
             "normal": None if drag.normal is None else drag.normal.tolist(),
             "radius": None if drag.radius is None else list(drag.radius),
         })  # fmt: skip
+        for each in self._others(client):
+            _send(each, {"t": "hold", "author": client.author, "row": message.row})
+
+    def _others(self, client: Client) -> list[Client]:
+        return [each for each in self._clients if each is not client]
 
     def _held_by_other(self, client: Client) -> str | None:
         """Say who else has a point in hand: nobody takes the hull from under it."""
@@ -302,7 +307,12 @@ class Session:
         if live.refused:
             self._refuse(client, message.gesture, message.seq, live.refused, held.row)
         else:
-            client.tell(pack(self._live(held.number, message.seq, live)))
+            frame = self._live(held.number, message.seq, live)
+            client.tell(pack(frame))
+            if others := self._others(client):
+                theirs = pack(attrs.evolve(frame, kind=FrameKind.THEIRS))
+                for each in others:
+                    each.tell(theirs)
 
     def _live(self, gesture: int, sequence: int, live: Live) -> Frame:
         state, lcb = self.hull.state, live.lcb_change
@@ -338,6 +348,8 @@ class Session:
     def _end_gesture(self) -> None:
         if self._gesture is not None:
             self._gesture.drag.__exit__(None, None, None)
+            for each in self._others(self._gesture.client):
+                _send(each, {"t": "hold", "author": self._gesture.client.author, "row": None})
         self._gesture = None
 
     def _apply(self, client: Client, message: Apply) -> None:
@@ -368,9 +380,8 @@ class Session:
             "normal": None if normal is None else normal.distance,
         }  # fmt: skip
         _send(client, {"t": "done", "id": number, "gesture": gesture, **told})
-        for each in self._clients:
-            if each is not client:
-                _send(each, {"t": "theirs", "author": client.author, **told})
+        for each in self._others(client):
+            _send(each, {"t": "theirs", "author": client.author, **told})
 
     def _undo(self, client: Client, message: Undo) -> None:
         self._require_free(client, "undo")

@@ -29,12 +29,13 @@ _WHERE = "in a frame of the page"
 
 
 class FrameKind(IntEnum):
-    """All that is published, what a drag would change, what an edit changed, a variant."""
+    """All that is published, what a drag or that of another would change, an edit, a variant."""
 
     NET = 1
     LIVE = 2
     PUBLISHED = 3
     GHOST = 4
+    THEIRS = 5
 
 
 @attrs.frozen(eq=False)

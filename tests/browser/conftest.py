@@ -19,6 +19,7 @@ from assoc_hull.page import PageServer
 AXE = Path(__file__).resolve().parents[2] / "build/npm/node_modules/axe-core/axe.min.js"
 # It comes by npm, which `make test-page` runs where it is installed.
 collect_ignore = [] if AXE.is_file() else ["test_accessibility.py"]
+collect_ignore += [] if shutil.which("node") else ["test_modules.py"]
 
 READY = ".page[data-ready=yes]"
 NAMES = ("chromium", "chromium-browser", "google-chrome")

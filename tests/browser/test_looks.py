@@ -327,6 +327,14 @@ def test_a_second_page_sees_what_the_first_has_made(two: tuple[Hand, Hand]) -> N
     second.ask("p => p.sign('bert')")
     x, y = first.press(POINT)
     first.to(x + 3.0, y)
+    second.until("p => p.store.theirs && p.store.theirs.frame")
+    second.settled()
+    assert second.ask("p => [p.store.theirs.author, p.store.theirs.frame.curves.size > 10]") == [
+        "anna", True,
+    ]  # fmt: skip
+    held = first.ask("p => [...p.hand.predictor.truth.frame.places.get(p.store.held.row)]")
+    assert second.ask("p => [...p.store.theirs.frame.places.get(p.store.theirs.row)]") == held
+    assert "anna holds WL 0.625 x ST 16" in second.page.locator("footer").inner_text()
     second.near(POINT)
     u, v = second.spot(POINT)
     second.page.mouse.move(u, v)
@@ -336,6 +344,7 @@ def test_a_second_page_sees_what_the_first_has_made(two: tuple[Hand, Hand]) -> N
     second.page.mouse.up()
     first.release()
     second.until("p => p.store.history.edits === 2")
+    second.until("p => p.store.theirs === null")
     second.settled()
     assert "anna's" in (second.page.get_by_role("button", name="Undo").get_attribute("title") or "")
     second.page.keyboard.press("Control+z")

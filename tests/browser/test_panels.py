@@ -4,6 +4,7 @@ from playwright.sync_api import Locator
 
 import assoc_hull as ah
 from tests.browser.conftest import Hand, Open
+from tests.net_strategies import fresh
 
 POINT = "WL 0.625 x ST 16"
 
@@ -100,3 +101,29 @@ def test_a_hull_that_is_sound_is_said_to_be(open_page: Open, hull: ah.Hull) -> N
     box = opened(hand, "Problems")
     box.get_by_text("Check the hull").click()
     box.get_by_text("Nothing is wrong.").wait_for()
+
+
+def test_a_click_on_a_problem_goes_to_its_place(open_page: Open) -> None:
+    """All drawings come to it, near enough to see it; it is marked until Esc."""
+    hull = fresh(10)
+    with hull.edit("bend", gaps="report") as edit:
+        edit.move("WL 3.234 x ST 1", y=hull.points["WL 3.234 x ST 1"].y + 0.1)
+    gap = next(each for each in hull.check() if each.kind == "gap")
+    hand = open_page(hull)
+    hand.ask("p => p.activeView().upper.focus()")
+    hand.page.keyboard.press("Shift+P")
+    hand.page.locator("aside").get_by_role("button", name=str(gap)[:40]).first.click()
+    hand.settled()
+    assert gap.place is not None
+    assert hand.ask("p => p.store.marked") == list(gap.place)
+    for kind in ("body", "profile", "half"):
+        off = hand.ask(
+            "(p, kind) => { const v = p.views[kind], [x, y] = v.atPlace(p.store.marked);"
+            " return [x - v.width / 2, y - v.height / 2, v.axis.s]; }", kind,
+        )  # fmt: skip
+        assert abs(off[0]) < 1.0
+        assert abs(off[1]) < 1.0
+        assert off[2] > 59.0
+    hand.ask("p => p.activeView().upper.focus()")
+    hand.page.keyboard.press("Escape")
+    assert hand.ask("p => p.store.marked === null")

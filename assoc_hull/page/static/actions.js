@@ -41,6 +41,8 @@ export const ACTIONS = [
   {id: "fair-pull", words: "Answer pulls fairly: shown before it is made", keys: ["j"], label: () => "Answer fairly", pressed: (page) => page.store.tools.fair, run: (page) => page.toggleTool("fair")},
   {id: "pinned", words: "Pinned: placed points move alone, their line is not led", keys: ["l"], label: () => "Pinned", pressed: (page) => page.store.tools.pinned, run: (page) => page.toggleTool("pinned")},
   {id: "insert", words: "Insert a point into the chosen line, by a click", keys: ["i"], label: () => "Insert a point", enabled: (page) => page.store.selection.curve !== null, run: (page) => page.insert()},
+  {id: "reshape", words: "Re-shape the chosen line through places that you click", keys: ["r"], label: () => "Re-shape", enabled: (page) => page.store.selection.curve !== null, run: (page) => page.shaper.start()},
+  {id: "fair-shape", words: "Answer re-shapes fairly", keys: ["Shift+r"], label: () => "Fair re-shapes", pressed: (page) => page.store.tools.fairShapes, run: (page) => page.toggleTool("fairShapes")},
   {id: "undo", words: "Undo your last edit", keys: ["Ctrl+z"], label: () => "Undo", enabled: (page) => page.hand.free && page.store.history.undo !== null, run: (page) => page.undo()},
   {id: "redo", words: "Redo what was taken back", keys: ["Ctrl+Shift+z", "Ctrl+y"], label: () => "Redo", enabled: (page) => page.hand.free && page.store.history.redo !== null, run: (page) => page.redo()},
   toggle("combs", "Curvature combs", "k"),

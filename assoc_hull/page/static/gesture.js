@@ -16,7 +16,7 @@ export class Pointers {
     this.view = view;
     this.hand = hand;
     this.store = view.store;
-    /** @type {{mode: "point" | "pan" | "turn" | "curve", x: number, y: number, row: number | null, moved: boolean, id: number, fine: boolean, lock: boolean, at: [number, number]} | null} */
+    /** @type {{mode: "point" | "pan" | "turn" | "curve" | "mark", x: number, y: number, row: number | null, moved: boolean, id: number, fine: boolean, lock: boolean, at: [number, number]} | null} */
     this.press = null;
     /** @type {Map<number, [number, number]>} */
     this.fingers = new Map();
@@ -37,6 +37,10 @@ export class Pointers {
     this.hand.onGrip = null;
     /** Told where a point is to be inserted. @type {((place: number[] | null) => void) | null} */
     this.onInsert = null;
+    /** May take a click to place a picture. @type {((x: number, y: number) => boolean) | null} */
+    this.onPlace = null;
+    /** Takes places while a line is re-shaped. @type {import("./shape.js").Shaper | null} */
+    this.shaper = null;
   }
 
   /** @param {MouseEvent} event @returns {[number, number]} */
@@ -57,12 +61,19 @@ export class Pointers {
       return;
     }
     if (this.press) return;
+    if (event.button === 0 && this.onPlace?.(x, y)) return;
     if (store.inserting !== null && event.button === 0 && view.kind !== "wire") return this.onInsert?.(this.#placeOn(store.inserting, x, y));
+    store.marked = null;
     if (store.refusal || store.problem) {
       store.refusal = store.problem = null;
       store.changed("overlay", "panel");
     }
     const reach = REACH[/** @type {"mouse"} */ (event.pointerType)] ?? 12, base = {x, y, moved: false, id: event.pointerId, fine: event.altKey !== store.tools.fine, lock: event.shiftKey, at: /** @type {[number, number]} */ ([x, y])};
+    if (store.shaping && event.button === 0 && view.kind !== "wire") {
+      const mark = this.shaper?.press(view, this.#placeOn(store.shaping.curve, x, y), x, y) ?? null;
+      if (mark !== null) this.press = {...base, mode: "mark", row: mark};
+      return;
+    }
     const row = event.button === 0 ? nearestPoint(view, x, y, reach) : null;
     if (row !== null) {
       const point = store.net?.points.get(row), chosen = store.selection.curve;
@@ -114,7 +125,9 @@ export class Pointers {
     press.fine = event.altKey !== this.store.tools.fine;
     press.lock = event.shiftKey;
     if (press.mode === "point") this.track();
-    else {
+    else if (press.mode === "mark") {
+      if (this.store.shaping && press.row !== null) this.shaper?.to(press.row, this.#placeOn(this.store.shaping.curve, x, y));
+    } else {
       if (press.mode === "turn") view.turn(dx, dy);
       else view.pan(dx, dy);
       this.store.changed("overlay");
@@ -149,7 +162,8 @@ export class Pointers {
     const {press, hand} = this;
     if (!press || event.pointerId !== press.id) return;
     this.press = null;
-    if (press.mode === "point") {
+    if (press.mode === "mark") this.shaper?.look();
+    else if (press.mode === "point") {
       if (press.moved) hand.finish();
       else hand.cancel();
     } else if (!press.moved && press.mode === "pan") this.store.select(null, null);

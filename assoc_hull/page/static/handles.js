@@ -17,12 +17,61 @@ export function drawHandles(view, g, ink) {
   for (const row of drawn) if (shown.has(row)) dot(view, g, ink, row, 3, false);
   if (refusal) for (const row of refusal.named) if (shown.has(row) && row !== refusal.row) outline(view, g, ink, row);
   if (hover.row !== null && shown.has(hover.row)) dot(view, g, ink, hover.row, 4.5, true);
+  if (store.theirs && shown.has(store.theirs.row)) {
+    const {author, row, frame} = store.theirs, place = frame?.places.get(row) ?? store.places.get(row);
+    if (place) named(view, g, ink, place, author);
+  }
+  if (store.marked) cross(view, g, ink, store.marked);
+  if (store.shaping) drawShaping(view, g, ink, store.shaping);
   const chosen = held?.row ?? selection.row;
   if (chosen === null || !shown.has(chosen)) return;
   if (held) drawHeld(view, g, ink);
   else {
     dot(view, g, ink, chosen, 5.5, true);
     ring(view, g, ink, chosen);
+  }
+}
+
+/** The point that somebody else holds, with the name. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {ArrayLike<number>} place @param {string} author */
+function named(view, g, ink, place, author) {
+  const [x, y] = view.atPlace(place);
+  g.beginPath();
+  g.arc(x, y, 6, 0, 7);
+  g.fillStyle = ink.water;
+  g.fill();
+  g.font = "600 12px system-ui, sans-serif";
+  g.textBaseline = "middle";
+  g.lineWidth = 4;
+  g.strokeStyle = ink.paper;
+  const left = x + 12 + g.measureText(author).width < view.width ? x + 12 : x - 12 - g.measureText(author).width;
+  g.strokeText(author, left, y - 12);
+  g.fillText(author, left, y - 12);
+}
+
+/** A place that a finding names. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {number[]} place */
+function cross(view, g, ink, place) {
+  const [x, y] = view.atPlace(place);
+  g.beginPath();
+  g.arc(x, y, 16, 0, 7);
+  for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+    g.moveTo(x + 12 * dx, y + 12 * dy);
+    g.lineTo(x + 24 * dx, y + 24 * dy);
+  }
+  g.strokeStyle = ink.hot;
+  g.lineWidth = 2;
+  g.stroke();
+}
+
+/** Where a line is to pass. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {{curve: number, places: number[][]}} shaping */
+function drawShaping(view, g, ink, {curve, places}) {
+  const line = view.store.net?.lineOf(curve);
+  if (!line || !view.shows(line)) return;
+  g.strokeStyle = g.fillStyle = ink.hot;
+  g.lineWidth = 2;
+  for (const each of places) {
+    const [x, y] = view.atPlace(each);
+    g.strokeRect(x - 5, y - 5, 10, 10);
+    g.fillRect(x - 1, y - 1, 2, 2);
   }
 }
 

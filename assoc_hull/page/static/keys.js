@@ -27,10 +27,10 @@ export class Keys {
 
   /** @param {KeyboardEvent} event */
   #down(event) {
-    const {page} = this, typing = event.target instanceof HTMLInputElement, key = keyName(event);
+    const {page} = this, {store} = page, typing = event.target instanceof HTMLInputElement, key = keyName(event);
     if (key === "Ctrl+s") {
       event.preventDefault();
-      page.say(page.store.file ? `Every edit is kept in ${page.store.file} already.` : "This hull is in memory only: it was not opened from a hull file.");
+      page.say(store.file ? `Every edit is kept in ${store.file} already.` : "This hull is in memory only: it was not opened from a hull file.");
       return;
     }
     if (event.key === "Escape") return this.#escape(typing ? /** @type {HTMLInputElement} */ (event.target) : null);
@@ -43,7 +43,8 @@ export class Keys {
       else this.#nudge(ARROWS[event.key], event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
       return;
     }
-    if (drawing && event.key === "Enter") return this.burst ? this.finish() : void page.panel.proposal.apply();
+    if (drawing && event.key === "Enter") return this.burst ? this.finish() : store.shaping ? page.shaper.finish() : void page.panel.proposal.apply();
+    if (drawing && event.key === "Backspace" && store.shaping) return page.shaper.back();
     if (!drawing && !key.startsWith("Ctrl") && key !== "/" && key !== "?" && key !== ":") return;
     const action = actionOf(page, key);
     if (!action) return;
@@ -62,7 +63,11 @@ export class Keys {
     } else if (store.refusal || store.problem) {
       store.refusal = store.problem = null;
       store.changed("overlay", "panel");
-    } else if (store.inserting !== null) {
+    } else if (store.marked) {
+      store.marked = null;
+      store.changed("overlay");
+    } else if (page.shaper.stop()) page.say("Nothing is re-shaped.");
+    else if (store.inserting !== null) {
       store.inserting = null;
       page.say("No point is inserted.");
     } else if (store.ghost || page.shower) page.dropGhost();

@@ -116,6 +116,6 @@ export class Problems {
     if (!this.found) return;
     const old = this.state !== this.page.store.state, words = document.createElement("p");
     words.textContent = `${this.#words()}${old ? " That was before the last edit." : ""}`;
-    this.list.replaceChildren(words, ...this.found.slice(0, 100).map((finding) => link(finding.text, () => this.page.find(finding.object))));
+    this.list.replaceChildren(words, ...this.found.slice(0, 100).map((finding) => link(finding.text, () => this.page.goTo(finding.object, finding.place))));
   }
 }

@@ -22,6 +22,7 @@ const author = localStorage.getItem(AUTHOR) || given.get("author") || "designer"
 mount(root, {
   token: given.get("t") ?? "",
   author,
+  upload: (file) => fetch(`drop?name=${encodeURIComponent(file.name)}`, {method: "POST", body: file, headers: {"X-Token": given.get("t") ?? ""}}).then((answer) => answer.json()),
   connect: (hands) => new Transport(`ws://${location.host}/socket`, hands),
   keep: (name, value) => localStorage.setItem(`assoc-hull ${name}`, value),
   kept: (name) => localStorage.getItem(`assoc-hull ${name}`),

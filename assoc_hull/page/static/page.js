@@ -3,10 +3,12 @@
 import {ACTIONS, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
 import {Keys} from "./keys.js";
-import {GHOST, LIVE, NET, VERSION, parseFrame} from "./wire.js";
+import {GHOST, LIVE, NET, THEIRS, VERSION, parseFrame} from "./wire.js";
 import {CROSSING, Net} from "./net.js";
+import {keepLooks, restoreLooks} from "./looks.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
+import {Shaper} from "./shape.js";
 import {Speaker} from "./speak.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
@@ -20,8 +22,9 @@ import {alongCurve} from "./lists.js";
 /** @typedef {import("./view.js").Kind} Kind */
 /** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */
 /** @typedef {{send: (message: object) => void}} Link */
-/** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, within?: AbortSignal}} Options */
+/** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, within?: AbortSignal, upload?: (file: File) => Promise<any>}} Options */
 
+const NEAR = 60; // pixels for a metre, at least, where a finding is looked at
 const KINDS = /** @type {Kind[]} */ (["body", "profile", "half", "wire"]);
 
 /** @param {HTMLElement} root @param {Options} options */
@@ -61,8 +64,11 @@ export class Page {
     this.hand.onLet = (held, wish) => this.#proposed(held, wish);
     for (const kind of KINDS) this.pointers[kind].onInsert = (place) => this.#insertAt(place);
     for (const kind of KINDS) this.views[kind].upper.addEventListener("focus", () => this.#look(kind));
+    this.shaper = new Shaper(this);
+    for (const kind of KINDS) this.pointers[kind].shaper = this.shaper;
     this.active = /** @type {Kind} */ ("body");
     this.panel = new Panel(this, aside);
+    for (const kind of KINDS) this.pointers[kind].onPlace = (x, y) => this.panel.beside.click(this.views[kind], x, y);
     this.keys = new Keys(this);
     this.panelStale = true;
     this.pending = 0;
@@ -76,7 +82,7 @@ export class Page {
     /** Counts and times for who measures. */
     this.stats = {frames: 0, steps: /** @type {number[]} */ ([]), drawn: /** @type {number[]} */ ([]), bytes: 0};
     this.store.listeners.add((what) => this.#stale(what));
-    this.#restore();
+    restoreLooks(this);
     this.dress();
     const sizes = new ResizeObserver(() => this.#stale("hull")), signal = options.within;
     sizes.observe(views);
@@ -119,6 +125,10 @@ export class Page {
       store.last = message;
       this.say(`${message.name}: ${message.relofted} curves followed.`);
       store.changed("panel");
+    } else if (message.t === "hold") {
+      store.theirs = message.row === null ? null : {author: message.author, row: message.row, frame: null};
+      if (store.theirs) this.speaker.say(`${message.author} holds ${store.net?.points.get(message.row)?.name ?? "a point"}`);
+      store.changed("overlay", "panel");
     } else if (message.t === "theirs") {
       store.last = message;
       store.changed("panel");
@@ -158,6 +168,11 @@ export class Page {
       if (asked !== undefined) this.stats.steps.push(performance.now() - asked.time);
       if (hand.live(frame)) this.speaker.listen(store);
       hand.asked.delete(frame.seq);
+    } else if (frame.kind === THEIRS) {
+      if (store.theirs && frame.state === store.state) {
+        store.theirs.frame = frame;
+        store.changed("overlay");
+      }
     } else if (frame.kind === GHOST) {
       // One of a state that has passed would be compared with another hull.
       if (frame.state === store.state && frame.seq === this.wanted) {
@@ -174,6 +189,7 @@ export class Page {
   #lost(how, reason) {
     this.letGo();
     this.hand.drop();
+    this.store.theirs = null;
     this.store.connection = how;
     this.store.reason = reason;
     this.store.changed("overlay", "panel");
@@ -226,13 +242,14 @@ export class Page {
     this.root.classList.toggle("gone", gone);
     this.banner.hidden = !gone && !store.problem;
     this.banner.textContent = gone ? store.reason : store.problem ?? "";
-    const hints = held?.how === "pull" ? "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
+    const hints = store.shaping ? "Re-shape: click where the line is to pass, drag a place, Backspace removes the last, Enter shows the answer, Esc gives up"
+      : held?.how === "pull" ? "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
       : held ? "Move: Alt is ten times finer, Shift locks an axis, Esc cancels"
       : store.selection.row !== null ? "Drag, or use the arrows: 1 mm, Shift 10 mm, Alt 0.1 mm" : "Click a point or a line; drag the ground to pan, the wheel zooms";
     this.status.textContent = store.connection === "connecting" ? "Connecting" : hints;
     const view = this.activeView(), pixel = 1e3 / view.axis.s * (this.store.tools.fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
     const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
-    this.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
+    this.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.net?.points.get(store.theirs.row)?.name ?? "a point"}` : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
   }
 
   // ---- what the actions do
@@ -257,6 +274,7 @@ export class Page {
   insert() {
     const {selection} = this.store;
     if (selection.curve === null) return this.say("Choose a line first: click it.");
+    this.shaper.stop();
     this.store.inserting = selection.curve;
     this.dropGhost();
     this.say("Click where the line is to go through: beside it, the line is led there. Esc cancels.");
@@ -270,7 +288,7 @@ export class Page {
     this.panel.proposal.show(`insert a point into ${name} at (${place.map((each) => each.toFixed(3)).join(", ")}) m`, [{op: "insert", curve: name, place, lead: !store.tools.pinned}]);
   }
 
-  /** @param {"fair" | "pinned"} what */
+  /** @param {"fair" | "fairShapes" | "pinned"} what */
   toggleTool(what) {
     this.store.tools[what] = !this.store.tools[what];
     this.store.changed("panel");
@@ -417,6 +435,18 @@ export class Page {
     this.say(point && net ? `${point.name}, ${net.roleWords(point)}` : curve === null ? "" : net?.curveName(curve) ?? "");
   }
 
+  /** Leads to what a finding names: all views come to the place, near enough to see it, and it is marked. @param {string} object @param {number[] | null} place */
+  goTo(object, place) {
+    const {store} = this, {net} = store, row = net?.find(object) ?? null, point = row === null ? undefined : net?.points.get(row);
+    const at = place ?? (row === null ? undefined : store.placeOf(row)), curve = point?.a ?? [...net?.curves ?? []].find(([, each]) => each.name === object || each.line.name === object)?.[0] ?? null;
+    if (!at) return this.find(object);
+    store.select(row, curve);
+    store.marked = [...at];
+    for (const view of Object.values(this.views)) if (view.shown && view.kind !== "wire") view.centre(at, NEAR);
+    store.changed("hull", "overlay");
+    this.say(`${object} at (${[...at].map((each) => each.toFixed(3)).join(", ")}) m`);
+  }
+
   search() { this.bar.search.focus(); }
 
   /** @param {string} name */
@@ -461,24 +491,5 @@ export class Page {
     this.bar.sheet(ACTIONS.map(({words, keys}) => [words, keys.map(keyWords).join(" or ")]));
   }
 
-  keep() {
-    const {show, tools, gain, squeeze, theme} = this.store;
-    this.options.keep("looks", JSON.stringify({show, how: tools.how, fine: tools.fine, fair: tools.fair, pinned: tools.pinned, gain, squeeze, theme}));
-  }
-
-  #restore() {
-    try {
-      const {show, how, fine, fair, pinned, gain, squeeze, theme} = JSON.parse(this.options.kept("looks") ?? "{}");
-      for (const name of /** @type {(keyof Store["show"])[]} */ (Object.keys(this.store.show))) if (typeof show?.[name] === "boolean") this.store.show[name] = show[name];
-      if (how === "pull" || how === "move") this.store.tools.how = how;
-      this.store.tools.fine = fine === true;
-      this.store.tools.fair = fair === true;
-      this.store.tools.pinned = pinned === true;
-      if (gain > 0 && gain < 100) this.store.gain = gain;
-      if ([1, 2, 5, 10].includes(squeeze)) this.store.squeeze = squeeze;
-      if (["auto", "light", "dark"].includes(theme)) this.store.theme = theme;
-    } catch {
-      this.options.keep("looks", "{}"); // what was kept is none of ours
-    }
-  }
+  keep() { keepLooks(this); }
 }

@@ -3,6 +3,7 @@
 import {evaluate, normalMovement} from "./hermite.js";
 import {combScale, inflections, teeth} from "./comb.js";
 import {drawLabels} from "./labels.js";
+import {drawBeside, drawPicture} from "./drop.js";
 import {diamond, drawHandles} from "./handles.js";
 
 /** @typedef {import("./view.js").View} View */
@@ -19,6 +20,7 @@ export function paintHull(view, ink) {
   view.stale.hull = false;
   view.rowsShown = null;
   if (!net) return;
+  drawPicture(view, g);
   if (view.kind !== "wire") drawGrid(view, g, ink);
   g.lineJoin = "round";
   const families = new Map();
@@ -120,7 +122,9 @@ export function paintOverlay(view, ink) {
   view.note.textContent = noteOf(view);
   if (!net) return;
   g.lineJoin = g.lineCap = "round";
+  drawBeside(view, g, ink.soft);
   if (store.ghost) drawGhost(view, g, ink, store.ghost);
+  if (store.theirs?.frame) drawGhost(view, g, {...ink, live: ink.water, spike: ink.water}, store.theirs.frame);
   if (overlay) drawMoved(view, g, ink, overlay.frame, overlay.predicted);
   const chosen = selection.curve;
   if (hover.curve !== null && hover.curve !== chosen) stroke(view, g, hover.curve, ink.ink, 1.6);
@@ -136,7 +140,7 @@ export function paintOverlay(view, ink) {
 function noteOf(view) {
   const words = [];
   if (view.kind === "wire") return "";
-  if ((view.store.overlay || view.store.ghost) && view.store.show.movement && view.magnified) words.push(`movement × ${view.magnified.toLocaleString("en")}`);
+  if ((view.store.overlay || view.store.ghost || view.store.theirs?.frame) && view.store.show.movement && view.magnified) words.push(`movement × ${view.magnified.toLocaleString("en")}`);
   const tall = view.sy / view.axis.s;
   if (tall > 1.01) words.push(`heights × ${tall.toFixed(1)}`);
   return words.join(" · ");
@@ -153,7 +157,7 @@ function stroke(view, g, id, colour, width) {
   g.stroke();
 }
 
-/** A variant that is shown, dashed. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame */
+/** A variant, or what follows the hand of another, dashed. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame */
 function drawGhost(view, g, ink, frame) {
   const {net, curves, show, overlay} = view.store, moved = movementOf(frame, curves);
   const seen = (/** @type {number} */ id) => {

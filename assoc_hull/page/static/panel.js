@@ -5,6 +5,7 @@ import {button} from "./asker.js";
 import {inflections} from "./comb.js";
 import {arcLength} from "./hermite.js";
 import {farthest} from "./paint.js";
+import {Beside} from "./drop.js";
 import {PointTable, Problems} from "./lists.js";
 import {Fairing} from "./fair.js";
 import {Files} from "./files.js";
@@ -27,7 +28,7 @@ export class Panel {
   /** @param {Page} page @param {HTMLElement} element */
   constructor(page, element) {
     this.page = page;
-    this.parts = Object.fromEntries(["Proposal", "Point", "Curve", "Edit", "Pull", "Why", "History", "Hydrostatics", "Fair", "Vary", "Points", "Problems", "Export", "Signed as"].map((title) => {
+    this.parts = Object.fromEntries(["Proposal", "Point", "Curve", "Edit", "Pull", "Why", "History", "Hydrostatics", "Fair", "Vary", "Points", "Problems", "Export", "Beside", "Signed as"].map((title) => {
       const box = document.createElement("details"), head = document.createElement("summary"), heading = document.createElement("h2"), body = document.createElement("div");
       box.open = OPEN.includes(title);
       box.ontoggle = () => page.store.changed("panel");
@@ -52,8 +53,9 @@ export class Panel {
     this.fair = new Fairing(page, this.parts.Fair);
     /** All that ask the server: an answer is for one of them. */
     this.askers = [this.proposal, this.why, this.past, this.numbers, this.fair, this.vary, this.problems, new Files(page, this.parts.Export)];
+    this.beside = new Beside(page, this.parts.Beside);
     this.radii = [0, 1].map((i) => this.#radius(i));
-    this.switches = ["fair-pull", "pinned", "insert"].map((id) => {
+    this.switches = ["fair-pull", "pinned", "insert", "reshape", "fair-shape"].map((id) => {
       const action = /** @type {import("./actions.js").Action} */ (ACTIONS.find((each) => each.id === id)), found = button(action.label?.(page) ?? "", () => action.run(page));
       found.dataset.action = id;
       found.title = `${action.words} (${action.keys.map(keyWords).join(", ")})`;

@@ -18,7 +18,7 @@ export class Proposal extends Asker {
   /** @param {import("./page.js").Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
-    /** @type {{name: string, ops: object[], state: number} | null} */
+    /** @type {{name: string, ops: object[], state: number, draft: boolean} | null} */
     this.what = null;
     this.ready = false;
     this.make = button("Apply", () => this.apply());
@@ -29,10 +29,10 @@ export class Proposal extends Asker {
     box.append(this.words, form);
   }
 
-  /** @param {string} name @param {object[]} ops */
-  show(name, ops) {
+  /** One that is a draft is not made: it waits for more of what is asked. @param {string} name @param {object[]} ops @param {boolean} [draft] */
+  show(name, ops, draft = false) {
     this.askGhost({t: "preview", ops}, `${name}: looking what follows …`);
-    this.what = {name, ops, state: this.page.store.state};
+    this.what = {name, ops, state: this.page.store.state, draft};
     this.ready = false;
     this.page.store.changed("panel");
   }
@@ -45,6 +45,7 @@ export class Proposal extends Asker {
     const box = this.box.closest("details");
     if (box) box.hidden = !this.what && !this.words.textContent;
     this.make.disabled = !this.ready;
+    this.make.textContent = this.what?.draft ? "Done: show the answer" : "Apply";
     this.give.disabled = !this.what;
   }
 
@@ -60,7 +61,7 @@ export class Proposal extends Asker {
     if (message.id !== this.asked || !this.what) return;
     const {refused, notes} = message.value;
     this.ready = !refused.length;
-    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value)}.`, "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
+    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value)}.`, this.what.draft ? "Nothing is changed yet: click more places, or Enter for the answer; Esc gives up." : "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
     this.page.say(this.words.textContent);
     this.page.store.changed("panel");
   }
@@ -69,6 +70,10 @@ export class Proposal extends Asker {
   apply() {
     const {what, page} = this;
     if (!what || !this.ready) return false;
+    if (what.draft) {
+      page.shaper.finish();
+      return true;
+    }
     this.asked = page.apply(what.name, what.ops);
     this.ready = false;
     return true;

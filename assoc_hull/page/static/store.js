@@ -24,15 +24,23 @@ export class Store {
     this.overlay = null;
     /** A variant that is shown, not made. @type {Frame | null} */
     this.ghost = null;
+    /** What somebody else has in hand, and what follows it. @type {{author: string, row: number, frame: Frame | null} | null} */
+    this.theirs = null;
     /** @type {Held | null} */
     this.held = null;
     /** @type {Refusal | null} */
     this.refusal = null;
     this.selection = {curve: /** @type {number | null} */ (null), row: /** @type {number | null} */ (null)};
     this.hover = {curve: /** @type {number | null} */ (null), row: /** @type {number | null} */ (null)};
-    this.tools = {how: /** @type {"pull" | "move"} */ ("pull"), radius: /** @type {number[] | null} */ (null), fine: false, fair: false, pinned: false};
+    this.tools = {how: /** @type {"pull" | "move"} */ ("pull"), radius: /** @type {number[] | null} */ (null), fine: false, fair: false, fairShapes: true, pinned: false};
     /** The curve that the next click inserts a point into. @type {number | null} */
     this.inserting = null;
+    /** The line that is being re-shaped, and where it is to pass. @type {{curve: number, places: number[][]} | null} */
+    this.shaping = null;
+    /** A hull of a file, shown beside. @type {{lines: import("./net.js").Line[], frame: Frame} | null} */
+    this.beside = null;
+    /** A place that somebody is led to. @type {number[] | null} */
+    this.marked = null;
     this.show = {combs: true, allCombs: false, movement: true, labels: true, points: false};
     this.gain = 1;
     this.squeeze = 1;
@@ -84,10 +92,10 @@ export class Store {
     this.curves = frame.curves;
     this.places = frame.places;
     this.state = frame.state;
-    this.overlay = this.ghost = null;
+    this.overlay = this.ghost = this.theirs = null;
     const row = kept.point === null ? null : net.find(kept.point);
     const curve = [...net.curves].find(([, {name}]) => name === kept.curve)?.[0] ?? null;
-    this.inserting = null;
+    this.inserting = this.shaping = null;
     this.selection = {row, curve};
     this.hover = {row: null, curve: null};
     // A pull that is to be fair is wide: an eighth of the length, and a third of the breadth.
@@ -100,7 +108,7 @@ export class Store {
     for (const [id, curve] of frame.curves) this.curves.set(id, curve);
     for (const [row, place] of frame.places) this.places.set(row, place);
     this.state = frame.state;
-    this.overlay = this.ghost = null;
+    this.overlay = this.ghost = this.theirs = null;
     this.changed("hull", "overlay", "panel");
   }
 }

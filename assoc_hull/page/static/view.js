@@ -56,6 +56,8 @@ export class View {
     this.pathsStale = true;
     /** @type {number[] | null} */
     this.rowsShown = null;
+    /** A picture to trace: its upper left corner and the size of its pixels, m. @type {{image: ImageBitmap, x: number, y: number, across: number, up: number} | null} */
+    this.picture = null;
     this.magnified = 0;
     /** @type {Map<string, number>} */
     this.scales = new Map();
@@ -224,6 +226,13 @@ export class View {
     this.axis.o += dx;
     this.oy += dy;
     this.#left();
+  }
+
+  /** Brings a place to the middle, with so many pixels for a metre at least. @param {ArrayLike<number>} place @param {number} scale */
+  centre(place, scale) {
+    if (this.axis.s < scale) this.zoom(...this.atPlace(place), scale / this.axis.s);
+    const [x, y] = this.atPlace(place);
+    this.pan(this.width / 2 - x, this.height / 2 - y);
   }
 
   /** @param {number} dx @param {number} dy */

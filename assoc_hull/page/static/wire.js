@@ -3,7 +3,7 @@
 /** @typedef {{id: number, n: number, xyz: Float64Array, leave: Float32Array, arrive: Float32Array}} Curve */
 /**
  * @typedef {object} Frame
- * @property {number} kind 1 all that is published, 2 what a drag would change, 3 what an edit changed, 4 a variant that is shown
+ * @property {number} kind 1 all that is published, 2 what a drag would change, 3 what an edit changed, 4 a variant that is shown, 5 what the drag of another would change
  * @property {boolean} structural
  * @property {number} gesture
  * @property {number} seq
@@ -18,7 +18,7 @@
  */
 
 export const VERSION = 1;
-export const NET = 1, LIVE = 2, PUBLISHED = 3, GHOST = 4;
+export const NET = 1, LIVE = 2, PUBLISHED = 3, GHOST = 4, THEIRS = 5;
 const HEADER = 48;
 
 /** @param {ArrayBuffer} buffer @returns {Frame} */

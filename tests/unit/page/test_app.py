@@ -216,3 +216,12 @@ def test_two_servers_have_other_tokens(shipped: Shipped) -> None:
         assert tokens[1]
         assert tokens[0][1] != tokens[1][1]
         assert one.address.endswith("&author=anna%20%26%20bert")
+
+
+@pytest.mark.parametrize("given", [None, b"", b"other", b"tokentoken"])
+def test_a_dropped_file_is_taken_from_its_own_page_only(app: Any, given: bytes | None) -> None:
+    """Nothing is read of who does not know the token, by whatever name it asks."""
+    more = [] if given is None else [(b"x-token", given)]
+    assert get(app, "/drop", HOST, *more, method="POST")[0] == 403
+    assert get(app, "/drop", (b"host", b"evil.example"), (b"x-token", b"token"),
+               method="POST")[0] == 403  # fmt: skip

@@ -1,0 +1,50 @@
+"""A file that was dropped on the page: read as `assoc_hull.read` does, and shown as lines beside.
+
+It never touches the hull of the page; the file lies in a folder that is gone afterwards.
+"""
+
+from __future__ import annotations
+
+import base64
+import re
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from assoc_hull.errors import AssocHullError
+from assoc_hull.hull.sources import read
+from assoc_hull.page.describe import describe_net
+from assoc_hull.page.wire import Frame, FrameKind, pack
+
+__all__ = ["MOST_BYTES", "read_dropped"]
+
+MOST_BYTES = 64 * 2**20
+
+_LETTERS = 2000
+"""So much of a report is told."""
+
+
+def read_dropped(data: bytes, name: str) -> dict[str, Any]:
+    """Read a file's content; give its lines, their shapes as a frame in base64, and the report.
+
+    What cannot be read gives the `problem` alone, in the words of `assoc_hull.read`.
+    """
+    # Only letters that no system takes for a folder; the ending says what it is.
+    own = re.sub(r"[^A-Za-z0-9._-]+", "-", name)[-80:].strip("-.") or "file"
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, own)
+        path.write_bytes(data)
+        try:
+            hull = read(path)
+        except AssocHullError as error:
+            return {"problem": str(error).replace(f"{folder}/", "")}
+        state, shapes = hull.state, hull.shapes()
+        none = state.live("rows")[:0]
+        frame = Frame(FrameKind.GHOST, 0, shapes.curves, shapes.spline, none, state.rows.xyz[none])
+        report = str(hull.creation) if hull.definitions else ""
+        hull.close()
+    net = describe_net(state)
+    return {
+        "name": own, "report": report[:_LETTERS], "particulars": net["particulars"],
+        "lines": net["lines"], "frame": base64.b64encode(pack(frame)).decode(),
+    }  # fmt: skip

@@ -1,0 +1,91 @@
+// Re-shaping a stretch of a line: places are clicked, each can be dragged; Enter asks for the answer.
+
+/** @typedef {import("./page.js").Page} Page */
+
+const AGAIN = 12; // px: a press so near a place takes hold of it
+
+export class Shaper {
+  /** @param {Page} page */
+  constructor(page) { this.page = page; }
+
+  start() {
+    const {page} = this, {store} = page, id = store.selection.curve;
+    if (id === null) return page.say("Choose a line first: click it.");
+    const line = store.net?.lineOf(id);
+    if (!line || line.axis === null) return page.say("It lies in no plane of the drawing: choose a section, a waterline or a buttock.");
+    page.dropGhost();
+    store.inserting = null;
+    store.shaping = {curve: id, places: []};
+    store.changed("overlay", "panel");
+    page.say("Click where the line is to pass, drag a place to change it, Backspace removes the last. Enter asks for the answer, Esc gives up.");
+  }
+
+  /** Takes hold of a place, or makes one; gives its number. @param {import("./view.js").View} view @param {number[] | null} place @param {number} x @param {number} y @returns {number | null} */
+  press(view, place, x, y) {
+    const {store} = this.page, shaping = store.shaping;
+    if (!shaping) return null;
+    if (!place) {
+      this.page.say(`Click in the view that shows ${store.net?.curveName(shaping.curve)} in its plane. Esc gives up.`);
+      return null;
+    }
+    const near = shaping.places.findIndex((each) => {
+      const [u, v] = view.atPlace(each);
+      return Math.hypot(u - x, v - y) < AGAIN;
+    });
+    if (near < 0) shaping.places.push(place);
+    store.changed("overlay");
+    return near < 0 ? shaping.places.length - 1 : near;
+  }
+
+  /** @param {number} which @param {number[] | null} place */
+  to(which, place) {
+    const {store} = this.page;
+    if (store.shaping && place) store.shaping.places[which] = place;
+    store.changed("overlay");
+  }
+
+  /** The pointer is up: the plain answer is shown, which comes at once. */
+  look() {
+    const shaping = this.page.store.shaping;
+    if (shaping?.places.length) this.page.panel.proposal.show(this.#name(), this.#ops(false), true);
+  }
+
+  back() {
+    const {store} = this.page;
+    if (!store.shaping?.places.pop()) return;
+    if (store.shaping.places.length) this.look();
+    else this.page.dropGhost();
+    store.changed("overlay");
+  }
+
+  /** The places are given: the answer is shown before it is made. */
+  finish() {
+    const {page} = this, {store} = page;
+    if (!store.shaping?.places.length) return;
+    const name = this.#name(), ops = this.#ops(store.tools.fairShapes);
+    store.shaping = null;
+    page.panel.proposal.show(name, ops);
+  }
+
+  /** Gives it up; tells whether there was anything. */
+  stop() {
+    const {page} = this, was = page.store.shaping !== null;
+    page.store.shaping = null;
+    if (was) page.dropGhost();
+    return was;
+  }
+
+  #name() {
+    const shaping = this.page.store.shaping, n = shaping?.places.length ?? 0;
+    return `re-shape ${this.page.store.net?.curveName(shaping?.curve ?? -1)} through ${n} ${n === 1 ? "place" : "places"}`;
+  }
+
+  /** It may change as far beyond the places as a pull is felt. @param {boolean} fair */
+  #ops(fair) {
+    const {store} = this.page, {curve, places} = /** @type {NonNullable<typeof store.shaping>} */ (store.shaping);
+    const upright = store.net?.lineOf(curve)?.axis === 0, axis = upright ? 2 : 0, c = store.curves.get(curve), reach = store.tools.radius?.[upright ? 1 : 0] ?? 1;
+    const all = c ? Array.from({length: c.n}, (_, i) => c.xyz[3 * i + axis]) : [], given = places.map((each) => each[axis]);
+    const span = [Math.max(Math.min(...given) - reach, Math.min(...all)), Math.min(Math.max(...given) + reach, Math.max(...all))];
+    return [{op: "reshape", curve: store.net?.curveName(curve) ?? "", points: [...places].sort((p, q) => p[axis] - q[axis]), span, ...(fair ? {fair} : {})}];
+  }
+}

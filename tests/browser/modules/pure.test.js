@@ -1,0 +1,69 @@
+// Modules of the page that need no browser, against what the library has written beside them.
+
+import assert from "node:assert/strict";
+import {readFileSync} from "node:fs";
+import {test} from "node:test";
+import {ACTIONS, keyName, keyWords} from "./actions.js";
+import {evaluate} from "./hermite.js";
+import {Predictor} from "./predict.js";
+import {NET, parseFrame} from "./wire.js";
+
+const given = JSON.parse(readFileSync("given.json", "utf8")), raw = readFileSync("net.frame");
+const frame = parseFrame(raw.buffer.slice(raw.byteOffset, raw.byteOffset + raw.byteLength));
+
+test("a frame has what was packed", () => {
+  assert.equal(frame.kind, NET);
+  assert.deepEqual([...frame.curves.keys()], given.curves);
+  assert.deepEqual([...frame.curves.values()].map(({n}) => n), given.counts);
+  assert.deepEqual([...frame.places.keys()], given.rows);
+});
+
+test("a frame of another version is refused", () => {
+  const other = raw.buffer.slice(raw.byteOffset, raw.byteOffset + raw.byteLength);
+  new DataView(other).setUint8(0, 99);
+  assert.throws(() => parseFrame(other), /reload the page/);
+});
+
+test("places along curves are those of the library", () => {
+  const out = new Float64Array(9);
+  for (const {id, segment, u, place} of given.places) {
+    evaluate(frame.curves.get(id), segment, u, out);
+    // End derivatives travel in single precision.
+    for (let j = 0; j < 3; j++) assert.ok(Math.abs(out[j] - place[j]) < 2e-6, `${id} ${segment} ${u}`);
+  }
+});
+
+/** The frame with all heights raised by a, and by b times its square. */
+function raised(a, b) {
+  const curves = new Map([...frame.curves].map(([id, c]) => [id, {...c, xyz: c.xyz.map((value, i) => i % 3 === 2 ? value + a + b * a * a : value)}]));
+  return {...frame, curves, places: new Map()};
+}
+
+test("what grows in proportion is foreseen, on the same side only", () => {
+  const predictor = new Predictor(), none = new Map();
+  for (const a of [0.01, 0.02]) predictor.learn(raised(a, 0), a, frame.curves, none);
+  const found = predictor.at(0.05, 100, frame.curves, none);
+  const [[id, c]] = found.curves;
+  assert.ok(Math.abs(c.xyz[2] - frame.curves.get(id).xyz[2] - 0.05) < 1e-12);
+  assert.equal(predictor.at(-0.05, 100, frame.curves, none), null);
+});
+
+test("what bends is foreseen only while that is seen by less than half a pixel", () => {
+  const predictor = new Predictor(), none = new Map();
+  for (const a of [0.01, 0.02, 0.03]) predictor.learn(raised(a, 5), a, frame.curves, none);
+  assert.notEqual(predictor.at(0.032, 100, frame.curves, none), null);
+  assert.equal(predictor.at(0.2, 100, frame.curves, none), null);
+});
+
+test("another structure is not foreseen", () => {
+  const predictor = new Predictor(), none = new Map();
+  predictor.learn({...raised(0.01, 0), structural: true}, 0.01, frame.curves, none);
+  assert.equal(predictor.at(0.011, 100, frame.curves, none), null);
+});
+
+test("each action has words, and each key one effect", () => {
+  const keys = ACTIONS.flatMap((each) => each.keys);
+  assert.equal(new Set(keys).size, keys.length);
+  for (const {id, words, keys: own} of ACTIONS) assert.ok(id && words && own.length && own.every(keyWords), id);
+  assert.equal(keyName({key: "Z", ctrlKey: true, shiftKey: true, altKey: false, metaKey: false}), "Ctrl+Shift+z");
+});

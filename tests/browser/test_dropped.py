@@ -1,0 +1,87 @@
+"""Files and pictures that are dropped on the page: shown beside, the hull stays as it is."""
+
+import base64
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from tests.browser.conftest import Hand, Open
+
+PICTURE = (
+    "iVBORw0KGgoAAAANSUhEUgAAAAQAAAACCAIAAADwyuo0AAAAEElEQVR42mP4z8AARwzIHABvqgf5aN2v"
+    "pwAAAABJRU5ErkJggg=="
+)
+
+
+def drop(hand: Hand, name: str, data: bytes, kind: str = "", view: str = "body") -> None:
+    """Drop a file on a drawing, as a hand does from another window."""
+    hand.page.evaluate(
+        "([name, data, kind, view]) => { const raw = atob(data), moved = new DataTransfer();"
+        " moved.items.add(new File([Uint8Array.from(raw, c => c.charCodeAt(0))], name,"
+        " {type: kind})); document.querySelector(`.view-${view} canvas:last-of-type`)"
+        ".dispatchEvent(new DragEvent('drop', {dataTransfer: moved, bubbles: true,"
+        " cancelable: true})); }", [name, base64.b64encode(data).decode(), kind, view],
+    )  # fmt: skip
+
+
+def test_a_dropped_hull_is_shown_beside(open_page: Open, hull: ah.Hull, tmp_path: Path) -> None:
+    """Its lines to the bit, with its size in words; taken away, nothing is left of it."""
+    hand, before = open_page(hull), hull.fingerprint
+    other = ah.examples.wigley()
+    other.export(tmp_path / "other.hull.json")
+    drop(hand, "../oth er.hull.json", (tmp_path / "other.hull.json").read_bytes())
+    hand.until("p => p.store.beside !== null")
+    hand.settled()
+    box = hand.page.locator("details:has(h2:text-is('Beside'))")
+    assert f"Lpp {other.particulars.length:.2f}" in box.inner_text()
+    shown = hand.ask("p => [...p.store.beside.frame.curves].map(([id, c]) => [id, ...c.xyz])")
+    shapes = ah.read(tmp_path / "other.hull.json").shapes()
+    assert [each[0] for each in shown] == shapes.curves.tolist()
+    for (_, *flat), spline in zip(shown, shapes.spline.single(), strict=True):
+        assert np.array_equal(flat, spline.xyz.ravel())
+    assert hull.fingerprint == before
+    box.get_by_role("button", name="Take it away").click()
+    assert hand.ask("p => p.store.beside === null")
+
+
+@pytest.mark.parametrize("name", ["garbage.csv", "garbage.stl", "garbage.xyz"])
+def test_garbage_that_is_dropped_is_told_in_a_sentence(
+    open_page: Open, hull: ah.Hull, name: str
+) -> None:
+    """No folder of the server is named, and the hull stays."""
+    hand, before = open_page(hull), hull.fingerprint
+    drop(hand, name, bytes(range(256)))
+    box = hand.page.locator("details:has(h2:text-is('Beside'))")
+    box.get_by_text(f"{name}: ").wait_for()
+    assert "error of this program" not in box.inner_text()
+    assert "/tmp" not in box.inner_text()
+    assert hull.fingerprint == before
+
+
+def test_a_picture_is_placed_by_two_clicks(open_page: Open, hull: ah.Hull) -> None:
+    """Both places lie where they were said to; it moves with the drawing, and can go."""
+    hand = open_page(hull)
+    drop(hand, "plan.png", base64.b64decode(PICTURE), "image/png", "profile")
+    hand.until("p => p.views.profile.picture !== null")
+    frame = hand.ask(
+        "p => { const b = p.views.profile.upper.getBoundingClientRect(); return [b.left, b.top]; }"
+    )
+    clicks = [(frame[0] + 200.0, frame[1] + 120.0), (frame[0] + 500.0, frame[1] + 40.0)]
+    for x, y in clicks:
+        hand.page.mouse.click(x, y)
+    box = hand.page.locator("details:has(h2:text-is('Beside'))")
+    for label, value in (("x of the first", "10"), ("z of the first", "0"),
+                         ("x of the second", "100"), ("z of the second", "12")):  # fmt: skip
+        box.get_by_label(label).fill(value)
+    pixels = hand.ask("p => p.panel.beside.placing.at")
+    box.get_by_role("button", name="Place it").click()
+    picture = hand.ask("p => { const {x, y, across, up} = p.views.profile.picture;"
+                       " return [x, y, across, up]; }")  # fmt: skip
+    x, y, across, up = picture
+    for (u, v), place in zip(pixels, ((10.0, 0.0), (100.0, 12.0)), strict=True):
+        assert x + u * across == pytest.approx(place[0], abs=1e-9)
+        assert y - v * up == pytest.approx(place[1], abs=1e-9)
+    box.get_by_role("button", name="Take it away").click()
+    assert hand.ask("p => p.views.profile.picture === null")
