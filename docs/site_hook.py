@@ -21,6 +21,7 @@ TABLES = (
     "parameter_figures",
     "thresholds",
     "table5_values",
+    "notebook_cells",
 )
 
 LATER = {
