@@ -74,6 +74,7 @@ $(SITE)/.installed: requirements/docs.txt requirements/ci.txt Makefile
 	@touch $@
 
 site: $(SITE)/.installed  ## the documentation as a site with search, in build/site
+	$(SITE)/bin/python docs/notebook_cells.py
 	NO_MKDOCS_2_WARNING=1 $(SITE)/bin/python -m mkdocs build --strict
 
 wheel: $(STAMP)  ## the wheel, in dist

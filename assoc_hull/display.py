@@ -15,23 +15,70 @@ from collections.abc import Collection, Iterable, Sequence
 from html import escape
 from typing import Protocol
 
-__all__ = ["ShownAsText", "html_table"]
+__all__ = [
+    "Printer",
+    "ShownAsText",
+    "html_room",
+    "html_table",
+    "html_text",
+    "screenful",
+    "shortened",
+]
 
 
-class _Printer(Protocol):
+class Printer(Protocol):
     """What IPython hands to `_repr_pretty_`."""
 
     def text(self, obj: str, /) -> None:
         """Write some text."""
 
 
+_SCREEN = 40
+"""Lines of a text that a prompt shows of it."""
+
+_ROOM = "max-height:32em;overflow:auto"
+"""What is longer is scrolled within its place in a notebook."""
+
+
 class ShownAsText:
-    """What a notebook, and a prompt of IPython, shows as `print` does."""
+    """What a notebook, and a prompt of IPython, shows as `print` does: as much as fits a screen."""
 
     __slots__ = ()
 
-    def _repr_pretty_(self, printer: _Printer, cycle: bool) -> None:
-        printer.text(str(self) if not cycle else "...")
+    def __repr__(self) -> str:
+        first = next(iter(str(self).splitlines()), "")
+        return f"<{type(self).__name__}: {shortened(' '.join(first.split()))}>"
+
+    def _repr_pretty_(self, printer: Printer, cycle: bool) -> None:
+        printer.text(screenful(str(self)) if not cycle else "...")
+
+    def _repr_html_(self) -> str:
+        return html_text(str(self))
+
+
+def shortened(text: str, most: int = 90) -> str:
+    """Give a text within so many signs; dots stand for the rest."""
+    return text if len(text) <= most else f"{text[: most - 3].rstrip()}..."
+
+
+def screenful(text: str) -> str:
+    """Give as many lines of a text as fit a screen, and how the others are seen."""
+    lines = text.splitlines()
+    if len(lines) <= _SCREEN:
+        return text
+    left = len(lines) - _SCREEN + 1
+    return "\n".join([*lines[: _SCREEN - 1], f"({left} more lines: print() shows them)"])
+
+
+def html_text(text: str) -> str:
+    """Give a text as HTML, line by line; a long one is scrolled in its place."""
+    wrap = "pre" if "\n" in text else "pre-wrap"
+    return f'<pre style="{_ROOM};white-space:{wrap}">{escape(text)}</pre>'
+
+
+def html_room(*parts: str) -> str:
+    """Give parts of HTML one below the other; what is longer than a screen is scrolled."""
+    return f'<div style="{_ROOM}">{"".join(parts)}</div>'
 
 
 def html_table(

@@ -22,6 +22,7 @@ TABLES = (
     "parameter_figures",
     "thresholds",
     "table5_values",
+    "notebook_cells",
 )
 
 LATER = {

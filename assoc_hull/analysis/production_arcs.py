@@ -120,7 +120,7 @@ class ArcLine:
         }  # fmt: skip
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class ArcLines(ShownAsText):
     """Lines of a hull as arcs.
 

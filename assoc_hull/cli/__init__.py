@@ -19,8 +19,9 @@ from assoc_hull.cli.commands import make_parser
 from assoc_hull.cli.problems import explain
 from assoc_hull.errors import NotSoundError
 
-__all__ = ["main"]
+__all__ = ["arranged", "main"]
 
+_PAIR = re.compile(r"[A-Za-z_]\w*=")
 _NEGATIVE = re.compile(r"-\.?\d")
 
 _BAD, _NOT_SOUND, _STOPPED, _NO_READER = 2, 3, 130, 141
@@ -65,11 +66,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(argv: Sequence[str] | None) -> int:
     try:
-        words = _with_axes(sys.argv[1:] if argv is None else argv)
+        words = list(sys.argv[1:] if argv is None else argv)
         if words[:1] == ["help"]:
             words = [*words[1:2], "--help"]
         parser = make_parser(words)
-        arguments = parser.parse_args(_options_last(words))
+        arguments = parser.parse_args(arranged(words))
     except SystemExit as done:  # --help and --version
         return int(done.code or 0)
     with warnings.catch_warnings():
@@ -78,13 +79,24 @@ def _run(argv: Sequence[str] | None) -> int:
     return code
 
 
+def arranged(words: Sequence[str]) -> list[str]:
+    """Write what was typed as the parsers of commands take it."""
+    return _options_last(_with_axes(words))
+
+
 _TAKES_VALUE = ("--out", "--name", "--why", "--wait")
 
 
 def _options_last(words: list[str]) -> list[str]:
     """Put options of an edit behind its values, between which they may be typed."""
+    if words[:1] == ["vary"]:
+        return _with_set(words)
     if words[:1] != ["edit"] or "--" in words:
         return words
+    if any(word.startswith("--") for word in words):
+        from assoc_hull.cli.typed_edits import options_as_values
+
+        words = options_as_values(words)
     values, options = list[str](), list[str]()
     rest = iter(words)
     for word in rest:
@@ -97,6 +109,16 @@ def _options_last(words: list[str]) -> list[str]:
         if word == "-o" or name:
             options += [each for each in [next(rest, None)] if each is not None]
     return [*values, *options]
+
+
+def _with_set(words: list[str]) -> list[str]:
+    """Let `NAME=VALUE` of a variation stand without `--set`."""
+    found = list[str]()
+    for before, word in zip(["-", *words], words, strict=False):
+        if _PAIR.match(word) and not before.startswith("-"):
+            found.append("--set")
+        found.append(word)
+    return found
 
 
 def _with_axes(words: Sequence[str]) -> list[str]:

@@ -221,7 +221,7 @@ def add_edit(commands: Commands) -> None:
     parser = add_command(
         commands, "edit",
         _edit,
-        """assoc-hull edit ship.hull pull "WL 0.5 x ST 16" 20mm radius=20,8
+        """assoc-hull edit ship.hull pull "WL 0.5 x ST 16" 20mm --radius 20 8
         assoc-hull edit ship.hull move "WL 0.5 x ST 16" y=6.79 --dry-run
         assoc-hull edit ship.hull edits.json --why "BTK 0.44"
         assoc-hull edit ship.hull edits.json -o fairer.hull

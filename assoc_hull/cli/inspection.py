@@ -62,6 +62,7 @@ def add_inspection(commands: Commands) -> None:
     info.add_argument(
         "--wait", action="store_true", help="with --engine: wait until it has been compiled"
     )
+    info.add_argument("--names", action="store_true", help="list the names of its lines alone")
     add_json(info)
     check = add_command(
         commands, "check", _check,
@@ -91,6 +92,10 @@ def _info(arguments: argparse.Namespace) -> int:
     if arguments.hull is None:
         raise UsageError("no hull is named: give HULL, or --engine")
     hull = open_hull(arguments.hull)
+    if arguments.names:
+        names = list(hull.lines)
+        emit(arguments, {"lines": names}, "\n".join(names))
+        return 0
     emit(arguments, hull_facts(hull), hull_words(hull, names=True))
     return 0
 

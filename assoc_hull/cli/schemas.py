@@ -18,6 +18,37 @@ from assoc_hull.cli.problems import check_target
 __all__ = ["add_completion_and_schema"]
 
 _SHELLS = ("bash", "zsh", "fish")
+_ASK = 'assoc-hull info "$each" --names 2>/dev/null'
+_NAMES = {
+    "bash": f"""_assoc_hull_names() {{
+  local each name quote="${{1:0:1}}" typed="${{1//\\\\}}" before=""
+  [[ $quote == [\\"\\'] ]] && typed="${{typed:1}}" || quote=""
+  [[ $typed == *" x "* ]] && before="${{typed%" x "*}} x "
+  for each in "${{COMP_WORDS[@]}}"; do
+    [[ $each == *.hull || $each == *.hull.json ]] && [[ -f $each ]] || continue
+    {_ASK} | while IFS= read -r name; do
+      name="$before$name"
+      [[ $name == "$typed"* ]] || continue
+      if [[ $quote ]]; then printf '%s\\n' "$name"; else printf '%q\\n' "$name"; fi
+    done
+    return
+  done
+}}""",
+    "zsh": f"""_assoc_hull_names() {{
+  local each=${{words[(r)*.hull(|.json)]}}
+  local -a names=("${{(@f)$({_ASK})}}")
+  compadd -a names
+}}""",
+    "fish": f"""function __assoc_hull_names
+  for each in (string match -r '.*\\.hull(?:\\.json)?$' -- (commandline -opc))
+    {_ASK}
+  end
+end""",
+}
+"""What lists the lines of the hull that stands on the command line, in the language of a shell."""
+_CALLS = {"bash": "_assoc_hull_names", "zsh": "_assoc_hull_names", "fish": "(__assoc_hull_names)"}
+_NAMED = ("OBJECT", "LINE", "VALUE")
+"""Arguments that are names of lines, or hold them."""
 _DOCUMENTS = (
     "hull", "form-catalogue", "form-parameters", "comparison", "design", "surfaces", "plates",
     "hull-surface", "hull-plates",
@@ -55,6 +86,8 @@ def _complete(arguments: argparse.Namespace) -> int:
         if action.type is Path:
             folder = action.metavar == "DIR"
             action.complete = shtab.DIRECTORY if folder else shtab.FILE  # type: ignore[attr-defined]
+        elif action.metavar in _NAMED:
+            action.complete = {**_CALLS, "preamble": _NAMES}  # type: ignore[attr-defined]
     print(shtab.complete(parser, arguments.shell))
     return 0
 

@@ -2,7 +2,7 @@
 
 Words stand for the arguments of the method in their order, ``name=value`` for those with a name.
 A length may have a unit, numbers with commas are a place, places with semicolons are several;
-``POINT to x,y,z`` is a point and where it is to come.
+``POINT to x,y,z`` is a point and where it is to come; ``--radius 20 8`` is ``radius=20,8``.
 
 Examples
 --------
@@ -21,19 +21,30 @@ import difflib
 import inspect
 import math
 import re
+from collections import deque
 from collections.abc import Mapping, Sequence
 
+from assoc_hull.cli.command_table import COMMANDS
 from assoc_hull.cli.problems import UsageError
 from assoc_hull.edit.recording import WRITTEN_OUT
 from assoc_hull.edit.script import operations
 
-__all__ = ["is_operation", "typed_edit", "unknown_edit"]
+__all__ = ["is_operation", "options_as_values", "typed_edit", "unknown_edit"]
 
 _NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(mm|cm|m|)", re.IGNORECASE)
 _POWERS = {"mm": -3, "cm": -2}
 _WORDS = {"true": True, "yes": True, "false": False, "no": False, "none": None}
 _IN_FILES = ("rule",)
 """Modifications whose values are nested too deeply to be typed."""
+
+_SYNONYMS = {
+    "add": "insert", "bend": "reshape", "chine": "knuckle_line", "drag": "pull", "fillet": "round",
+    "fix": "pin", "flatten": "straighten", "knuckle": "knuckle_line", "push": "pull",
+    "release": "unpin", "remove": "delete", "scale": "transform", "set": "move", "smooth": "fair",
+}  # fmt: skip
+"""Words of other programs, and the modification that is meant."""
+
+_COMMANDS_OWN = ("--out", "--name", "--why", "--wait", "--dry-run", "--replace", "--json", "--help")
 
 _NAMED = re.compile(r"(\w+)=(.*)", re.DOTALL)
 
@@ -45,12 +56,67 @@ def is_operation(word: str) -> bool:
 
 def unknown_edit(word: str) -> UsageError:
     """Say what may have been meant by a word that is neither a modification nor a file."""
-    near = difflib.get_close_matches(word.lower(), operations(), 2, 0.6)
-    ask = f"; did you mean {' or '.join(map(repr, near))}?" if near else ";"
+    name = word.lower()
+    if name in COMMANDS:
+        return UsageError(
+            f"there is no modification {name!r}: it is a command of its own; "
+            f"see: assoc-hull {name} --help"
+        )
+    near = [_SYNONYMS[name]] if name in _SYNONYMS else []
+    near += difflib.get_close_matches(name, operations(), 2, 0.6)
+    ask = f"; did you mean {' or '.join(map(repr, dict.fromkeys(near)))}?" if near else ";"
     return UsageError(
         f"there is no modification {word[:60]!r}{ask} write behind the hull a .json file, or one "
         f"of {', '.join(operations())}"
     )
+
+
+def options_as_values(words: Sequence[str]) -> list[str]:
+    """Write options of the modification that is typed as values: `--radius 20 8` as `radius=20,8`.
+
+    Options of the command itself, and words of a modification that there is not, stay as they are.
+    """
+    operation = next((each for each in words[2:] if each in operations()), None)
+    if operation is None:
+        return list(words)
+    signature = operations()[operation]
+    takes = signature.parameters
+    free = any(each.kind is each.VAR_KEYWORD for each in takes.values())
+    found, rest = list[str](), deque(words)
+    while rest:
+        word = rest.popleft()
+        option, given, text = word.partition("=")
+        name = option[2:].replace("-", "_")
+        own = any(each.startswith(option) for each in _COMMANDS_OWN)
+        mine = (name in takes and option not in _COMMANDS_OWN) or (free and name and not own)
+        if not word.startswith("--") or (own and not mine):
+            found.append(word)
+            continue
+        if not mine:
+            raise UsageError(
+                f"{operation} takes no {option}: {operation} takes {_usage(signature)}"
+            )
+        if not given:
+            text = _taken(option, takes.get(name), rest)
+        found.append(f"{name}={text}")
+    return found
+
+
+def _taken(option: str, into: inspect.Parameter | None, rest: deque[str]) -> str:
+    """Take the words that belong to an option; an option that is true or false needs none."""
+    kind = "float" if into is None else str(into.annotation)
+    if "bool" in kind:
+        return rest.popleft() if rest and rest[0].lower() in _WORDS else "yes"
+    # As many numbers as it takes: the next one may be a value of the modification.
+    most = 3 if "ArrayLike" in kind else max(kind.count("float"), 1) if "tuple[" in kind else 1
+    numbers = list[str]()
+    while rest and len(numbers) < most and _number(rest[0].strip()) is not None:
+        numbers.append(rest.popleft().strip())
+    if numbers:
+        return ",".join(numbers)
+    if not rest or rest[0].startswith("-"):
+        raise UsageError(f"{option} has no value; write it behind, as {option} 20 8")
+    return rest.popleft()
 
 
 def typed_edit(operation: str, words: Sequence[str]) -> Mapping[str, object]:

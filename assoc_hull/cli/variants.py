@@ -109,7 +109,7 @@ def add_vary(commands: Commands) -> None:
         commands, "vary", _vary,
         """assoc-hull vary ship.hull --list
         assoc-hull vary ship.hull --set shaft_height=6.0 --set bossing_radius=1.0 -o larger.hull
-        assoc-hull vary ship.hull --set breadth=51.5 --stations x --json
+        assoc-hull vary ship.hull breadth=51.5 --stations x --json
         assoc-hull vary ship.hull --script larger_screw.json -o larger.hull
         assoc-hull vary ship.hull --reach volume=236000 --reach lcb=157 --free breadth=49:52
         --free fore_shift=-3:3 --free aft_shift -o fuller.hull
@@ -121,7 +121,7 @@ def add_vary(commands: Commands) -> None:
     add_hull(parser)
     parser.add_argument(
         "--set", metavar="NAME=VALUE", action="append", default=[],
-        help="a named parameter and the value it is to have; may be given more than once",
+        help="a named parameter and the value it is to have; several times, or without --set",
     )  # fmt: skip
     parser.add_argument(
         "--reach", metavar="NAME=VALUE", action="append", default=[],

@@ -87,7 +87,7 @@ class SectionFigures:
     inflections: int
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class CreationReport(ShownAsText):
     """A hull beside its definitions.
 

@@ -184,6 +184,9 @@ class Document:
     program: KeptProgram = attrs.field(factory=KeptProgram, init=False)
     lock: WriteLock = attrs.field(factory=WriteLock, init=False)
 
+    def __repr__(self) -> str:
+        return f"<Document {self.state.particulars.name}, {len(self.history)} edits>"
+
     def __attrs_post_init__(self) -> None:
         self._origin = self.head
         self.state.number = 0  # edits of another document, that made the tables, are not told here

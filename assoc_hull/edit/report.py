@@ -6,7 +6,7 @@ from typing import Protocol
 
 import attrs
 
-from assoc_hull.display import ShownAsText
+from assoc_hull.display import Printer, ShownAsText, html_room, html_table, screenful, shortened
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 
@@ -14,6 +14,7 @@ __all__ = [
     "SAME_MOVEMENT",
     "Counting",
     "EditReport",
+    "EditReports",
     "Fairness",
     "FormChange",
     "Led",
@@ -268,3 +269,31 @@ class EditReport(ShownAsText):
             if found:
                 parts.append(f"{len(found)} {title}")
         return "; ".join(parts)
+
+
+class EditReports(tuple[EditReport, ...]):
+    """Reports of edits, oldest first; a notebook shows them as a table."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        count = f"{len(self)} edit{'' if len(self) == 1 else 's'}"
+        return f"<{count}: {shortened(', '.join(each.name for each in self))}>" if self else "()"
+
+    def __str__(self) -> str:
+        return "\n".join(f"{each.number:>4}  {each}" for each in self)
+
+    def _repr_pretty_(self, printer: Printer, cycle: bool) -> None:
+        printer.text(screenful(str(self) or "()") if not cycle else "...")
+
+    def _repr_html_(self) -> str:
+        rows = (
+            (
+                str(each.number), each.name, each.author, each.time[:16].replace("T", " "),
+                str(len(each.relofted)),
+                "" if each.largest is None else f"{1e3 * each.largest.distance:.1f}",
+            )
+            for each in self
+        )  # fmt: skip
+        head = ("step", "edit", "author", "time, UTC", "curves that followed", "most, mm")
+        return html_room(html_table(head, rows, right=(0, 4, 5)))

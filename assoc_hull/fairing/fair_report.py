@@ -42,7 +42,7 @@ _ALIKE = 5e-6
 _HEAD = f"{'line':16}{'|r| median mm':>16}{'largest mm':>18}{'inflections':>13}{'moved mm':>11}"
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class FairLine(ShownAsText):
     """A curve before and after fairing.
 
@@ -74,7 +74,7 @@ class FairLine(ShownAsText):
         return f"{self.line:16}{cells[0]:>16}{cells[1]:>18}{bends:>13}{1e3 * self.moved:11.2f}"
 
 
-@attrs.frozen(eq=False, slots=False)
+@attrs.frozen(eq=False, slots=False, repr=False)
 class FairReport(ShownAsText):
     """What fairing did, or would do.
 

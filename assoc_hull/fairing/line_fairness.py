@@ -73,7 +73,7 @@ class FairnessPair:
         return self.before != self.after
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class FairnessTable(ShownAsText):
     """Records of curves of a net, line by line.
 

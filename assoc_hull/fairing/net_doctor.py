@@ -37,7 +37,7 @@ _ALONG_SHIP = 0.25
 """Lengths along the ship count so much less than across: stations are that much farther apart."""
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class PointFinding(ShownAsText):
     """A point that its lines do not bear out.
 
@@ -75,7 +75,7 @@ class PointFinding(ShownAsText):
         )
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class NetDoctorReport(ShownAsText):
     """What the doctor found in a net; nothing was changed.
 

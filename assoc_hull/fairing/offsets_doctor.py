@@ -197,7 +197,7 @@ class SlipNumber:
     slip: str
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class OffsetFinding(ShownAsText):
     """A number of a table that its neighbours do not bear out.
 
@@ -253,7 +253,7 @@ class OffsetFinding(ShownAsText):
         return text if self.both else f"{text}; told in one direction only"
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class DoctorReport(ShownAsText):
     """What the doctor of offsets found; nothing was changed.
 

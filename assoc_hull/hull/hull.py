@@ -34,7 +34,7 @@ from assoc_hull.arguments import (
 )
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.recording import Settings
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.report import EditReport, EditReports
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out
 from assoc_hull.edit.session import Edit, join_edit, open_edit
 from assoc_hull.edit.write_lock import PATIENCE
@@ -246,14 +246,14 @@ class Hull:
         return creation_report(self.state)
 
     @property
-    def history(self) -> tuple[EditReport, ...]:
+    def history(self) -> EditReports:
         """The reports of all committed edits, oldest first."""
-        return tuple(step.report for step in tuple(self.document.history))
+        return EditReports(step.report for step in tuple(self.document.history))
 
     @property
-    def undone(self) -> tuple[EditReport, ...]:
+    def undone(self) -> EditReports:
         """The reports of edits that were taken back, the last one taken back last."""
-        return tuple(step.report for step in tuple(self.document.undone))
+        return EditReports(step.report for step in tuple(self.document.undone))
 
     @property
     def author(self) -> str:

@@ -196,7 +196,7 @@ def plates_of_hull(surface: Any, seams: HullSeams, *args: Any, **options: Any) -
     return HullPlates(*attrs.astuple(found, recurse=False))
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class HullSurface(ShownAsText, FittedSurface):
     """The surface of a half hull: a `FittedSurface` that can be measured, meshed and written."""
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
+from itertools import compress
 from os import PathLike
 from pathlib import Path
 from typing import Any, Generic, TypeVar
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.arguments import file_path, integer, shown
-from assoc_hull.display import ShownAsText
+from assoc_hull.display import ShownAsText, html_room, html_table, html_text
 from assoc_hull.edit.document import Document, HasDocument
 from assoc_hull.edit.recording import VariedValues
 from assoc_hull.errors import BadInputError, WrongTypeError
@@ -45,8 +46,11 @@ HullType = TypeVar("HullType")
 
 _WORKERS = 256
 
+_SHOWN = 20
+"""Rows that a notebook shows."""
 
-@attrs.frozen(eq=False)
+
+@attrs.frozen(eq=False, repr=False)
 class Study(ShownAsText, Generic[HullType]):
     """Variants of a hull.
 
@@ -201,11 +205,31 @@ class Study(ShownAsText, Generic[HullType]):
         """
         write_parquet(self.run, self.table(), file_path(path, "in study"))
 
+    def _repr_html_(self) -> str:
+        table = self.table()
+        columns = [values[:_SHOWN].tolist() for values in table.values()]
+        kept = [any(each not in ("", None) and each == each for each in one) for one in columns]
+        names = list(compress(table, kept))
+        units = self.units
+        head = [f"{name}, {units[name]}" if name in units else name for name in names]
+        cells = [[_cell(each) for each in column] for column in compress(columns, kept)]
+        rows = html_table(head, zip(*cells, strict=True), right=range(len(head)))
+        left = len(self) - _SHOWN
+        more = [html_text(f"{left} more rows in table()")] if left > 0 else []
+        return html_room(html_text(str(self)), rows, *more)
+
     def __str__(self) -> str:
         counts = self.file.failures()
         words = [f"{counts.pop('', 0)} of {self.design.count} variants"]
         words += [f"{count} {kind}" for kind, count in sorted(counts.items())]
         return ", ".join(words) + (", interrupted" if self.interrupted else "")
+
+
+def _cell(value: object) -> str:
+    """Write a value of the table; nothing where there is none."""
+    if isinstance(value, float):
+        return "" if value != value else f"{value:.7g}"
+    return str(value)
 
 
 def _put(text: str, path: str | PathLike[str] | None) -> str:

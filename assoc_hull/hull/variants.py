@@ -23,7 +23,7 @@ __all__ = ["Jumboised", "Shifted", "Variation"]
 HullType = TypeVar("HullType")
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class Jumboised(ShownAsText, Generic[HullType]):
     """A hull with a longer or shorter parallel body.
 
@@ -42,7 +42,7 @@ class Jumboised(ShownAsText, Generic[HullType]):
         return str(self.report)
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class Variation(ShownAsText, Generic[HullType]):
     """A varied hull.
 
@@ -64,7 +64,7 @@ class Variation(ShownAsText, Generic[HullType]):
         return str(self.report)
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class Shifted(ShownAsText, Generic[HullType]):
     """A hull whose sections were shifted, or that was swung.
 

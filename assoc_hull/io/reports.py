@@ -32,7 +32,7 @@ __all__ = [
 # Reading.
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class Note(ShownAsText):
     """One remark on a table.
 
@@ -57,7 +57,7 @@ class Note(ShownAsText):
         return f"{self.kind}: {self.where}: {self.what}"
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class OffsetReport(ShownAsText):
     """Everything a reader decided that the file does not say by itself.
 

@@ -440,6 +440,9 @@ class HullState:
         """The tables that this is a published state of; itself, if it is the state of nothing."""
         return self if self._live is None else self._live
 
+    def __repr__(self) -> str:
+        return f"<HullState {self.particulars.name}, number {self.number}>"
+
     def published(self) -> HullState:
         """Give the tables as they were when they were published last; they stay so for ever.
 

@@ -74,7 +74,7 @@ _ANY = 1e5
 """m: lines are held to no image, as they are to keep their own shape."""
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class JumboiseReport(ShownAsText):
     """What was inserted or taken out.
 

@@ -56,7 +56,7 @@ def _read_only(given: Mapping[str, str]) -> Mapping[str, str]:
     return MappingProxyType(dict(given))
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class Sensitivities(ShownAsText):
     """Derivatives of m outputs by k parameters.
 

@@ -216,7 +216,7 @@ def composed_of(maps: int, layout: Layout) -> tuple[str, ...]:
 # The variation and its report.
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class Target(ShownAsText):
     """A named parameter of a variation.
 
@@ -238,7 +238,7 @@ class Target(ShownAsText):
         return f"{self.name} {self.before:.6g} -> {self.reached:.9g} {self.unit}"
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class VariationReport(ShownAsText):
     """What a variation did.
 

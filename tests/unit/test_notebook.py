@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+import json
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,8 +13,10 @@ from PIL import Image
 
 import assoc_hull as ah
 from assoc_hull.display import ShownAsText, html_table
+from assoc_hull.edit.report import EditReports
 from tests.conftest import Shipped
 
+ROOT = Path(__file__).resolve().parents[2]
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -71,11 +75,86 @@ def test_results_are_shown_as_they_are_printed() -> None:
         def text(self, obj: str, /) -> None:
             shown.append(obj)
 
-    results = (edit.report, hull.hydrostatics(), hull.fairness(), hull.why("WL 2.5 x ST 5"))
-    for each in results:
+    shown_results = (edit.report, hull.hydrostatics(), hull.fairness(), hull.why("WL 2.5 x ST 5"))
+    for each in shown_results:
         assert isinstance(each, ShownAsText)
         each._repr_pretty_(Printer(), cycle=False)
-    assert shown == [str(each) for each in results]
+    assert shown == [str(each) for each in shown_results]
+
+
+@pytest.fixture(scope="module")
+def results() -> dict[str, object]:
+    """Give what a person asks of a hull, by the name of the question."""
+    hull = ah.examples.wigley(stations=9, waterlines=6)
+    with hull.edit("a pull") as edit:
+        edit.pull("WL 2.5 x ST 5", 0.02)
+    wide = hull.vary(set={"breadth": 10.2})
+    return {
+        "hull": hull,
+        "document": hull.document,
+        "state": hull.state,
+        "history": hull.history,
+        "report": hull.history[0],
+        "hydrostatics": hull.hydrostatics(),
+        "table": hull.hydrostatic_table([3.0, 4.0]),
+        "stability": hull.stability(kg=4.0),
+        "fairness": hull.fairness(),
+        "why": hull.why("WL 2.5 x ST 5"),
+        "parameters": hull.form_parameters(),
+        "variation": wide,
+        "comparison": hull.compare(wide.hull),
+        "study": hull.study(set={"breadth": [9.5, 10.5]}),
+    }
+
+
+RESULTS = (
+    "hull", "document", "state", "history", "report", "hydrostatics", "table", "stability",
+    "fairness", "why", "parameters", "variation", "comparison", "study",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_every_repr_fits_a_screen(results: dict[str, object], name: str) -> None:
+    """In a plain prompt a few lines, in IPython a screen, in a notebook a place that scrolls."""
+    found = results[name]
+    assert len(repr(found)) <= 200
+    assert "\n" not in repr(found)
+    shown = list[str]()
+
+    class Printer:
+        def text(self, obj: str, /) -> None:
+            shown.append(obj)
+
+    if hasattr(found, "_repr_pretty_"):
+        found._repr_pretty_(Printer(), cycle=False)
+        assert len(shown[0].splitlines()) <= 40
+    if hasattr(found, "_repr_html_"):
+        html = found._repr_html_()
+        assert "max-height" in html or html.count("<tr>") <= 50
+        ElementTree.fromstring(f"<div>{html}</div>")
+
+
+def test_the_history_is_a_table_of_its_edits(results: dict[str, object]) -> None:
+    """Number, name, curves that followed, the largest movement in mm; empty it is the tuple ()."""
+    history = results["history"]
+    assert isinstance(history, EditReports)
+    (report,) = history
+    assert report.largest is not None
+    html = history._repr_html_()
+    assert ">a pull<" in html
+    assert f">{1e3 * report.largest.distance:.1f}<" in html
+    assert ah.examples.wigley().history == ()
+    assert repr(EditReports()) == "()"
+
+
+def test_a_comparison_and_a_study_are_tables(results: dict[str, object]) -> None:
+    """Rows of lines that moved and of numbers that differ; a row for each variant, with units."""
+    comparison, study = results["comparison"], results["study"]
+    assert comparison._repr_html_().count("<table>") == 3  # type: ignore[attr-defined]
+    html = study._repr_html_()  # type: ignore[attr-defined]
+    assert html.count("<tr>") == 3
+    assert ">9.5<" in html
+    assert ">volume, m3<" in html
 
 
 def test_hydrostatics_print_what_they_are_with_unit_and_doubt() -> None:
@@ -86,3 +165,25 @@ def test_hydrostatics_print_what_they_are_with_unit_and_doubt() -> None:
     assert record.gmt is None
     assert not any(line.startswith("GM") for line in lines)
     assert record._repr_html_().count("<tr>") == len(lines) + 1
+
+
+def test_the_example_notebook_holds_what_its_cells_show_now() -> None:
+    """Each cell runs, and a result is kept as it shows itself; `make site` writes it anew."""
+    kept = json.loads((ROOT / "docs" / "hull.ipynb").read_text("utf-8"))
+    space: dict[str, object] = {}
+    compared = 0
+    for cell in kept["cells"]:
+        if cell["cell_type"] != "code" or "raises-exception" in cell["metadata"].get("tags", ()):
+            continue
+        *before, last = cell["source"].splitlines()
+        exec("\n".join(before), space)
+        found = eval(last, space)
+        (output,) = cell["outputs"]
+        if hasattr(found, "_repr_mimebundle_"):
+            assert output["data"]["text/html"] == found._repr_mimebundle_()["text/html"]
+        elif hasattr(found, "_repr_html_"):
+            assert output["data"]["text/html"] == found._repr_html_()
+        else:
+            assert output["data"]["text/plain"] == repr(found)
+        compared += 1
+    assert compared >= 5

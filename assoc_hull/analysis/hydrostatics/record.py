@@ -160,7 +160,7 @@ def _frozen(values: Mapping[str, float | None]) -> Mapping[str, float | None]:
     return NamedMapping("value", values)
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class Hydrostatics(ShownAsText):
     """Hydrostatics at one floating position, both sides, in ship axes.
 
@@ -487,7 +487,7 @@ _SHORT = ("volume", "displacement", "lcb", "kb", "waterplane_area", "lcf", "kmt"
 """What a table prints; it fits a screen."""
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class HydrostaticTable(ShownAsText):
     """Hydrostatics over draughts and trims: ``table[i]``, or ``table[i, j]`` by draught and trim.
 

@@ -144,7 +144,7 @@ def _fixed_columns(given: Mapping[str, FloatArray]) -> Mapping[str, FloatArray]:
     return MappingProxyType(dict(given))
 
 
-@attrs.frozen(eq=False, kw_only=True)
+@attrs.frozen(eq=False, kw_only=True, repr=False)
 class Resistance(ShownAsText):
     """Resistance in calm deep water at n speeds.
 

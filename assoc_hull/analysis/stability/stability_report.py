@@ -50,6 +50,7 @@ from assoc_hull.analysis.stability.righting_lever import (
     float_at_heels,
 )
 from assoc_hull.arguments import all_of, choice, number
+from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.model.named_mapping import NamedMapping
@@ -102,8 +103,8 @@ class StabilityAngles:
         return self.vanishing - self.equilibrium
 
 
-@attrs.frozen(eq=False)
-class Stability:
+@attrs.frozen(eq=False, repr=False)
+class Stability(ShownAsText):
     """Stability of a ship in a condition.
 
     Attributes
@@ -199,6 +200,13 @@ class Stability:
         for each in found.values():
             freeze(each)
         return NamedMapping("value", found)
+
+    def __str__(self) -> str:
+        """Give what is found as `lines` does, without the head; levers are in `columns`."""
+        head = {title for title, _ in self.header.lines()}
+        told = [(title, words) for title, words in self.lines() if title not in head]
+        wide = max(len(title) for title, _ in told)
+        return "\n".join(f"{title:{wide}}  {words}" for title, words in told)
 
     def lines(self) -> Iterator[tuple[str, str]]:
         """Give head, condition and findings as pairs of a title and words."""

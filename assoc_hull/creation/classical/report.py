@@ -81,7 +81,7 @@ class Departure:
     net: float
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class ClassicalReport(ShownAsText):
     """What a definition says of itself.
 

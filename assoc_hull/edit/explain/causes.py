@@ -55,7 +55,7 @@ _BRANCH = ("│  ", "   ", "├─ ", "└─ ")
 _PLAIN = ("|  ", "   ", "|- ", "`- ")
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class Why(ShownAsText):
     """The causes of the last change of one object, a tree.
 

@@ -38,7 +38,7 @@ __all__ = [
 ]
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class LineDifference(ShownAsText):
     """How a line differs between two states.
 
@@ -92,7 +92,7 @@ class BesideDifference:
         return f"the {self.kind} {self.name}: {self.what}{there}"
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class Comparison(ShownAsText):
     """Two states of a hull side by side.
 

@@ -162,7 +162,7 @@ _FOUND = ("report", "lines", "fingerprint", "_measured")
 _KEPT = ("refused", "why", "shapes", "plain", *_FOUND)
 
 
-@attrs.frozen(eq=False, slots=False)
+@attrs.frozen(eq=False, slots=False, repr=False)
 class Preview(ShownAsText):
     """What an edit would do.
 

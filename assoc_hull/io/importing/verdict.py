@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class ImportFinding(ShownAsText):
     """One thing that is wrong or looks wrong.
 
@@ -56,7 +56,7 @@ class ImportFinding(ShownAsText):
         return f"{self.kind}: {self.where}: {self.what}"
 
 
-@attrs.frozen
+@attrs.frozen(repr=False)
 class Verdict(ShownAsText):
     """What an import is worth.
 

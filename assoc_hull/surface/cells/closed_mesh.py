@@ -405,7 +405,7 @@ class MeshedBody:
     report: MeshReport
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class ClosedMesh(ShownAsText):
     """Triangles that enclose a hull, or its port half, and each body beside its net.
 

@@ -129,7 +129,7 @@ _WHERE = "in development"
 _MOST_NODES = 257
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class Development(ShownAsText):
     """A surface laid flat, as a grid of r nodes along and c across.
 

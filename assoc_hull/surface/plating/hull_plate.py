@@ -216,7 +216,7 @@ COARSE = 0.2
 """The class of a plate of which so much is in doubt is that of the fitted surface alone."""
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class HullPlate(ShownAsText):
     """What lies between two butts and two seams of a hull.
 

@@ -100,7 +100,7 @@ COLUMNS: tuple[PlateColumn, ...] = (
 """The columns, in the order of files; those with a head are printed."""
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class HullPlateTable(ShownAsText):
     """Plates of a hull, one row each, from aft forward and from below upward.
 

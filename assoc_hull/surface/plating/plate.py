@@ -164,7 +164,7 @@ def _regions(name: str, areas: RegionAreas, shares: PlateShares, kind: str) -> I
 # The plate.
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class Plate(ShownAsText):
     """A plate of a shell: regions, class, roll axis, what forming takes.
 

@@ -211,7 +211,7 @@ COLUMNS: tuple[PlateColumn, ...] = (
 """The columns, in the order of files; those with a head are printed."""
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class PlateTable(ShownAsText):
     """Plates of a shell, one row each.
 

@@ -144,7 +144,7 @@ def _outline(
 # The result.
 
 
-@attrs.frozen(eq=False, slots=False)
+@attrs.frozen(eq=False, slots=False, repr=False)
 class RegionResult(ShownAsText):
     """Regions of Gaussian curvature of some surfaces.
 

@@ -18,7 +18,7 @@ _WORTH = 0.1
 """Targets that have less than this part in a combination are not named with it."""
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class AimReport(ShownAsText):
     """What aiming at targets found.
 

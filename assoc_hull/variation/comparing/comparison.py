@@ -18,7 +18,7 @@ import attrs
 
 from assoc_hull.analysis.form.floating_shape import Screw
 from assoc_hull.arguments import choice, instance, integer
-from assoc_hull.display import ShownAsText
+from assoc_hull.display import ShownAsText, html_room, html_table, html_text
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.features import Place
 from assoc_hull.model.named_mapping import NamedMapping
@@ -101,7 +101,7 @@ _BY: Mapping[str, Callable[[LineComparison], float]] = MappingProxyType(
 """By what lines may be sorted, the greatest first."""
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class HullComparison(ShownAsText):
     """A parent and a variant side by side; `str` gives it as a table.
 
@@ -227,8 +227,18 @@ class HullComparison(ShownAsText):
         return comparison_json(self)
 
     def __str__(self) -> str:
-
         return comparison_text(self)
+
+    def _repr_html_(self) -> str:
+        moved = [line_cells(each) for each in visibly_moved(self)[:_LISTED]]
+        numbers = [self.hydrostatic(name) for name in PRINCIPAL]
+        tables = [html_table(LINE_HEAD, moved, right=(1, 4, 5, 6, 7))] if moved else []
+        tables += [
+            html_table(NUMBER_HEAD, map(number_cells, differ), right=(3, 4, 5, 6))
+            for differ in (that_differ(numbers), that_differ(self.parameters))
+            if differ
+        ]
+        return html_room(html_text("\n".join([*_head(self), *_less_fair(self, _LISTED)])), *tables)
 
 
 def compare(

@@ -384,7 +384,7 @@ def _of(ask: ShiftRequest, alike: tuple[str, ...]) -> str:
 _UNITS = {"volume": "m3", "lcb": "m", "lcb_percent": "% Lpp"}
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, repr=False)
 class ShiftReport(ShownAsText):
     """What a shift of sections did.
 

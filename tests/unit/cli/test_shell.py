@@ -1,8 +1,10 @@
 """What the shell completes, and the form of a hull file as other programs read it."""
 
 import json
+import shlex
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -71,6 +73,37 @@ def test_bash_offers_what_fits_only(script: Path) -> None:
     """Another command's options are not offered, nor words that begin otherwise."""
     assert completed(script, "info", "--no") == {""}
     assert completed(script, "graph", "--format", "d") == {"dot"}
+
+
+@pytest.mark.skipif(BASH is None, reason="no bash")
+@pytest.mark.parametrize(
+    ("typed", "offered"),
+    [
+        ("WL\\ 2", r"WL\ 2.5"),
+        ('"WL 2', "WL 2.5"),
+        ('"WL 2.5 x ST 1', "WL 2.5 x ST 1"),
+    ],
+    ids=["blanks escaped", "in quotes", "a point"],
+)
+def test_bash_completes_lines_of_the_named_hull(script: Path, typed: str, offered: str) -> None:
+    """As the name has to be typed; others are not offered."""
+    assert BASH is not None
+    assert main(["example", "wigley", "-o", str(script.parent / "ship.hull.json")]) == 0
+    text = f"""
+        assoc-hull() {{ '{sys.executable}' -m assoc_hull "$@"; }}
+        source {script.name}
+        typed={shlex.quote(typed)}
+        COMP_WORDS=(assoc-hull edit ship.hull.json pull "$typed") COMP_CWORD=4
+        _shtab_assoc_hull assoc-hull "$typed" pull
+        printf '%s\\n' "${{COMPREPLY[@]}}"
+    """
+    run = subprocess.run(
+        [BASH, "--norc", "-c", text], cwd=script.parent, capture_output=True, text=True, check=True
+    )
+    found = run.stdout.splitlines()
+    assert offered in found
+    begin = typed.strip('"')
+    assert all(each.startswith(begin) for each in found)
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

@@ -107,6 +107,61 @@ def test_a_typed_point_beside_its_line_leads_as_in_python(
     assert bool(step.report.led) is not bool(words)
 
 
+@pytest.mark.parametrize(
+    ("typed", "same"),
+    [
+        (["pull", "WL 2.5 x ST 5", "50mm", "--radius", "20", "8"],
+         ["pull", "WL 2.5 x ST 5", "50mm", "radius=20,8"]),
+        (["pull", "--fair", "WL 2.5 x ST 5", "--radius", "20", "8", "50mm"],
+         ["pull", "WL 2.5 x ST 5", "50mm", "radius=20,8", "fair=yes"]),
+        (["move", "WL 2.5 x ST 5", "--by", "0", "-1cm", "0"],
+         ["move", "WL 2.5 x ST 5", "by=0,-1cm,0"]),
+        (["move", "WL 2.5 x ST 5", "--y=2.41"], ["move", "WL 2.5 x ST 5", "y=2.41"]),
+        (["fair", "--noise", "auto"], ["fair", "noise=auto"]),
+    ],
+    ids=["two numbers", "a switch, and a value behind numbers", "negative", "equals", "a word"],
+)  # fmt: skip
+def test_values_with_a_name_are_typed_as_options_too(
+    file: Path, typed: list[str], same: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """They do the same."""
+    told = list[str]()
+    for words in (typed, same):
+        assert main(["edit", str(file), *words, "--name", "it", "--dry-run"]) == 0
+        told.append(capsys.readouterr().out)
+    assert told[0] == told[1]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["pull", "WL 2.5 x ST 5", "1mm", "--radus", "20"], "pull takes no --radus: pull takes"),
+        (["pull", "WL 2.5 x ST 5", "1mm", "--radius"], "--radius has no value"),
+        (["smooth", "WL 2.5"], "did you mean 'fair'?"),
+        (["vary", "breadth=11"], "a command of its own; see: assoc-hull vary --help"),
+    ],
+    ids=["slip", "no value", "synonym", "command"],
+)
+def test_a_slip_in_a_typed_edit_is_told_with_what_is_meant(
+    file: Path, words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In one line; nothing is written."""
+    assert main(["edit", str(file), *words]) == 2
+    told = capsys.readouterr().err
+    assert said in told
+    assert told.count("\n") == 1
+
+
+def test_parameters_of_a_variation_stand_without_their_option(
+    file: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Before and behind options."""
+    out = file.parent / "wide.hull"
+    assert main(["vary", str(file), "-o", str(out), "breadth=10.5", "--stations", "x"]) == 0
+    assert ah.open(out).particulars.breadth == pytest.approx(10.5, rel=1e-12)
+    capsys.readouterr()
+
+
 def test_words_that_are_no_numbers_are_names() -> None:
     """A name with commas, an equals sign, or digits is taken as it stands."""
     assert typed_edit("add_line", ["waterlines", "4.2", "7"])["name"] == "7"
