@@ -12,7 +12,7 @@ from assoc_hull.hull.hull import Hull
 from assoc_hull.model.objects import Point
 from assoc_hull.page.app import family_colours
 from assoc_hull.page.joined import joined_modules, scoped_styles
-from assoc_hull.page.widget import SharedSession, View
+from assoc_hull.page.widget_views import SharedSession, View
 
 __all__ = ["HullWidget"]
 

@@ -11,7 +11,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, MissingExtraError
 from assoc_hull.page.messages import parse
-from assoc_hull.page.widget import SharedSession, View
+from assoc_hull.page.widget_views import SharedSession, View
 from assoc_hull.page.wire import VERSION
 
 POINT = "WL 2.5 x ST 7"

@@ -185,8 +185,8 @@ def test_a_shaft_and_a_bossing_that_are_raised_leave_the_lines_about_them_fair(
         ("buttocks:1.000000/1", 2),
     ):  # fmt: skip
         assert after[key] <= before[key] + more
-    more = {key for key in before if after[key] > before[key]}
-    assert more <= {
+    gained = {key for key in before if after[key] > before[key]}
+    assert gained <= {
         "boundary:profile/1", "waterlines:5.000000/1", "waterlines:8.000000/1",
         "buttocks:1.000000/1", "buttocks:6.000000/1",
     }  # fmt: skip
