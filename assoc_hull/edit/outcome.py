@@ -23,7 +23,7 @@ from assoc_hull.graph.run_update import UpdatePass
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import along_normal, sides_held
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.network import bits_differ
+from assoc_hull.model.network import bits_differ, moved_curve
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 
@@ -216,7 +216,10 @@ def net_difference(
         for curve in np.unique(Node.number(nodes[odd])).tolist()
         if curve not in before or not _same(before[curve], spline(curve))
     ]
-    widest = np.array([np.max(moved[nodes == Node.curve(curve)]) for curve in curves], np.float64)
+    # Over the whole edit, not in the largest of its sub-steps.
+    widest = np.array([moved_curve(before.get(curve), spline(curve)) for curve in curves])
+    for place in np.flatnonzero(np.isnan(widest)).tolist():
+        widest[place] = np.max(moved[nodes == Node.curve(curves[place])])
     numbers = np.array(curves, np.int64)
     return np.concatenate([Node.point(rows), Node.curve(numbers)]), np.concatenate([away, widest])
 

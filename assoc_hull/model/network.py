@@ -28,7 +28,7 @@ from assoc_hull.model.node import Node
 from assoc_hull.model.plane_intersections import PartnerIntersections, cut_curves
 from assoc_hull.model.tables import CurveIntersections, HullState
 
-__all__ = ["HullNetwork", "bits_differ", "moved_curves", "placed"]
+__all__ = ["HullNetwork", "bits_differ", "moved_curve", "moved_curves", "placed"]
 
 _NO_NODES: IntArray = np.zeros(0, np.int64)
 _MANY = 4096
@@ -271,22 +271,31 @@ def placed(meets: CurveIntersections, parameter: FloatArray, xyz: FloatArray) ->
 def moved_curves(
     old: Sequence[SplineBatch | None], splines: Sequence[SplineBatch], batch: SplineBatch
 ) -> FloatArray:
-    """Tell how far the defining points of each curve moved (m): 0 only if no bit changed."""
+    """Tell how far the points of each curve moved at most (m): 0 only if no bit changed."""
     was = [each for each in old if each is not None]
     before = SplineBatch.join(was) if len(was) == len(old) else None
     if before is None or not np.array_equal(before.start, batch.start):
-        return np.array([_moved_one(a, b) for a, b in zip(old, splines, strict=True)])
-    step = np.abs(batch.xyz.T - before.xyz.T)
-    moved: FloatArray = np.maximum.reduceat(step.max(axis=0), batch.start[:-1])
+        return np.array([moved_curve(a, b) for a, b in zip(old, splines, strict=True)])
+    moved: FloatArray = np.maximum.reduceat(_distances(before.xyz, batch.xyz), batch.start[:-1])
     for still in np.flatnonzero(moved == 0.0).tolist():
-        moved[still] = _moved_one(old[still], splines[still])
+        moved[still] = moved_curve(old[still], splines[still])
     return moved
 
 
-def _moved_one(before: SplineBatch | None, after: SplineBatch) -> float:
+def _distances(before: FloatArray, after: FloatArray) -> FloatArray:
+    """Give how far points (n, 3) moved, (n,), m: 0 only if no bit changed."""
+    step = np.abs(after - before)
+    x, y, z = step.T
+    # A square may vanish where the step does not.
+    found: FloatArray = np.maximum(np.sqrt(x * x + y * y + z * z), step.max(axis=1))
+    return found
+
+
+def moved_curve(before: SplineBatch | None, after: SplineBatch) -> float:
+    """Tell how far the points of a curve moved at most (m); nan where it has others now."""
     if before is None or len(before.knot) != len(after.knot):
         return float("nan")
-    step = float(np.abs(after.xyz - before.xyz).max())
+    step = float(_distances(before.xyz, after.xyz).max())
     if step == 0.0 and not np.array_equal(before.leave, after.leave):
         return float(np.abs(after.leave - before.leave).max())
     return step

@@ -435,7 +435,9 @@ def _noise(state: HullState, problem: BattenProblem, asked: Noise) -> tuple[floa
         return rounding_noise(unit), f"rounded to {1e3 * unit:.4g} mm"
     look = "" if estimate is None else f" (the lines look like {1e3 * estimate:.2g} mm)"
     raise BadInputError(
-        f"the noise is not known{look}", _WHERE, 'state it, in m, or give noise="auto"'
+        f"the noise is not known{look}",
+        _WHERE,
+        'state it (noise=0.001 is 1 mm; in the shell --noise 1), or give "auto"',
     )
 
 

@@ -24,7 +24,7 @@ export function render({model, el}) {
       hear = (content, buffers) => {
         if (content.view !== view) return;
         if (content.text !== undefined) hands.text(content.text);
-        for (const {buffer, byteOffset, byteLength} of buffers ?? []) hands.bytes(buffer.slice(byteOffset, byteOffset + byteLength));
+        for (const {buffer, byteOffset, byteLength} of buffers ?? []) hands.bytes(/** @type {ArrayBuffer} */ (buffer.slice(byteOffset, byteOffset + byteLength)));
       };
       lost = () => { if (!model.comm_live) hands.over(GONE); };
       setTimeout(() => hands.open()); // when the page has its link

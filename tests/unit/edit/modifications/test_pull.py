@@ -149,3 +149,16 @@ def test_a_pull_on_a_flat_is_refused_by_the_name_that_was_given(series60_70: ah.
     assert str(caught.value).startswith("WL 1 x ST 10 is on a flat")
     assert "across_flats=True" in str(caught.value)
     assert ":" not in str(caught.value)
+
+
+def test_a_line_moved_as_far_as_its_points_also_in_several_sub_steps(
+    fresh_series60_70: ah.Hull,
+) -> None:
+    """A large pull is carried out in steps; what is told of a line is the whole of them."""
+    hull = fresh_series60_70
+    with hull.edit("a large pull") as edit:
+        edit.pull("WL 0.5 x ST 16", 0.05, radius=(20.0, 8.0))
+    found = hull.why("ST 16")
+    assert found.moved is not None
+    far = [cause.moved for cause in found.causes if cause.moved is not None]
+    assert found.moved == pytest.approx(max(far), rel=1e-12)
