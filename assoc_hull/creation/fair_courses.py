@@ -395,11 +395,14 @@ class _Group:
         Of sections, and of uses that are moved.
     steps : (u,)
         By what.
+    half : float, m
+        Half the breadth, which no section may pass.
     """
 
     shape: SectionShape
     count: int
     steps: FloatArray
+    half: float
 
     @classmethod
     def of(
@@ -424,7 +427,8 @@ class _Group:
             pieces, below = make(stand, lower)
         if upper:
             pieces = pieces + topside_pieces(stand, upper, below)
-        return cls(SectionShape(family.x[rows], tuple(pieces)), len(here), steps)
+        shape = SectionShape(family.x[rows], tuple(pieces))
+        return cls(shape, len(here), steps, 0.5 * family.forms.particulars.breadth)
 
     def lines(
         self, heights: FloatArray, breadths: FloatArray
@@ -490,15 +494,17 @@ class _Group:
         return found
 
     def inside(self) -> list[tuple[FloatArray, IntArray, FloatArray]]:
-        """Give how far pieces are from the centre plane, and above where they start."""
+        """Give how far pieces are from the centre plane and the side, and above their starts."""
         found = []
         every = np.arange(self.count)
         for piece in self._curves:
             v = piece.vertices
             # Near its ends a piece may touch the centre plane.
-            least = np.einsum("st,nt->ns", _INNER, v[:, :, 1]).min(axis=1)
-            room = least - np.minimum(0.2 * piece.finish[:, 1], _MARGIN)
-            for gap in (room, least_coordinate(v, 0) - piece.start[:, 0]):
+            y = np.einsum("st,nt->ns", _INNER, v[:, :, 1])
+            room = y.min(axis=1) - np.minimum(0.2 * piece.finish[:, 1], _MARGIN)
+            for gap in (
+                room, self.half - y.max(axis=1), least_coordinate(v, 0) - piece.start[:, 0]
+            ):  # fmt: skip
                 part = gap.reshape(1 + len(self.steps), -1)
                 found.append((part[0], every, ((part[1:] - part[0]) / self.steps[:, None]).T))
         return found

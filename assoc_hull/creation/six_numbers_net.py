@@ -26,7 +26,7 @@ from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.two_halves import half_fault, half_number
 from assoc_hull.model.tables import HullState
 
-__all__ = ["build_typed", "dips_below_base", "with_room"]
+__all__ = ["build_typed", "dips_below_base", "passes_side", "with_room"]
 
 _FULLER = 0.015
 """Of the area of a half of the waterline: one step."""
@@ -36,6 +36,9 @@ _STEPS = 4
 _LEVEL, _LOWEST, _PLACES = 1e-3, 5e-3, 32
 """m: what dips below the base line by less is told of by nobody; by more than this part of the
 draught, it is refused. Places that are looked at between two points."""
+
+_WIDEST = 1e-2
+"""What goes farther beyond the side than this part of half the breadth is refused."""
 
 _DIP = 8e-4
 """A buttock that dips by more (m) is shifted; closing CB and LCB moves it a little after that."""
@@ -97,6 +100,30 @@ def dips_below_base(state: HullState) -> list[DesignNote]:
         return []
     why = f"{name} dips below the base line: lead it or fair it there"
     return [DesignNote("lowest place of the net", lowest, "m", "measured", remark=why)]
+
+
+def passes_side(state: HullState) -> list[DesignNote]:
+    """Tell how far a net goes beyond half the breadth that was asked for.
+
+    Raises BadInputError where it is another ship for that.
+    """
+    half, widest, name = 0.5 * state.particulars.breadth, 0.0, ""
+    for curve in state.live("curves").tolist():
+        spline = state.spline(curve)
+        length, y = np.diff(spline.knot) / 3.0, spline.xyz[:, 1]
+        corners = y[:-1] + length * spline.leave[:-1, 1], y[1:] - length * spline.arrive[1:, 1]
+        if max(float(each.max()) for each in (*corners, y)) <= half + _LEVEL:
+            continue
+        beyond = float(sample(spline, _PLACES)[1][:, 1].max()) - half
+        if beyond > widest:
+            widest, name = beyond, str(state.lines.name[state.line_of(curve)])
+    if widest > _WIDEST * half:
+        what = f"{name} would go {widest:.2g} m beyond half the breadth"
+        raise BadInputError(what, "in a ship from six numbers", "ask for fuller ends")
+    if widest < _LEVEL:
+        return []
+    why = f"{name} passes the side: fair it there"
+    return [DesignNote("beyond half the breadth", widest, "m", "measured", remark=why)]
 
 
 def _lowest(state: HullState, curve: int) -> float:

@@ -16,6 +16,7 @@ import contextlib
 import itertools
 import operator
 from collections.abc import Callable, Iterator, Sequence
+from contextvars import ContextVar
 from datetime import UTC, datetime
 from functools import partial
 from itertools import repeat
@@ -38,7 +39,10 @@ from assoc_hull.model.change import change_of
 from assoc_hull.model.index import Index, build_index, index_columns
 from assoc_hull.model.tables import HasState, HullState, copy_into, copy_state
 
-__all__ = ["Changed", "Document", "HasDocument", "Keeper", "Label"]
+__all__ = ["SIGNED", "Changed", "Document", "HasDocument", "Keeper", "Label"]
+
+SIGNED: ContextVar[str] = ContextVar("signed", default="")
+"""In whose name this thread or task works on hulls; "" for the author of each hull."""
 
 _HELD = 16
 """So many steps are held in full where a keeper has them all."""
@@ -279,7 +283,7 @@ class Document:
         HullBusyError
             Another thread or task has it.
         """
-        author = self.author if author is None else author
+        author = self.signature if author is None else author
         try:
             self.lock.take(holder, what, author, where=where, wait=wait)
             self.state.begin_writing(self._written_here)
@@ -337,9 +341,14 @@ class Document:
             self.keeper.refresh(self)
             self.unsettled = False
 
+    @property
+    def signature(self) -> str:
+        """Who signs what this task does: who it is done for (`SIGNED`), else the author."""
+        return SIGNED.get() or self.author
+
     def commit(self, step: Step, author: str | None = None) -> None:
         """Take a finished step into the history; whatever fails, it is not in it."""
-        author = self.author if author is None else author
+        author = self.signature if author is None else author
         branch = self._branch(self.tip if self.undone else None)
         if self.keeper is None and step.change is None:
             # The tables tell it now, and never again.
@@ -530,7 +539,7 @@ class Document:
         with self._writing("checkpoint"):
             if name in self.labels:
                 raise NameTakenError("checkpoint or branch", name)
-            label = Label(name, self.head, author=self.author, time=_now())
+            label = Label(name, self.head, author=self.signature, time=_now())
             if self.keeper is not None:
                 self.unsettled = True
                 self.keeper.label(label)
@@ -632,7 +641,7 @@ class Document:
         number = 1
         while f"branch {number}" in self.labels:
             number += 1
-        return Label(f"branch {number}", tip, True, self.author, _now())
+        return Label(f"branch {number}", tip, True, self.signature, _now())
 
     def _agree(self) -> None:
         """Tell the keeper that memory holds what it keeps."""

@@ -440,6 +440,8 @@ class Drag:
                 raise BadInputError(what, f"in the drag of {self._name}", remedy)
             edit = Edit(self._document, name, self._settings)
             with edit:
+                # Another may have come first while this one waited for the hull.
+                self._require_its_ground("commit")
                 self._ask(edit, self._last)
             self._over = True
         assert edit.report is not None
@@ -475,13 +477,16 @@ class Drag:
 
     def _require_open(self, act: str) -> None:
         """Refuse a drag that is over, or whose ground has changed."""
-        where = f"in {act} of the drag of {self._name}"
         self._document.require_ended(act)
         if self._over:
+            where = f"in {act} of the drag of {self._name}"
             raise BadInputError("it has ended", where, "begin another one (hull.drag)")
+        self._require_its_ground(act)
+
+    def _require_its_ground(self, act: str) -> None:
         if self._document.state_number != self._number:
-            what = "the hull was changed since the drag began"
-            raise BadInputError(what, where, "begin another one (hull.drag)")
+            what, where = "the hull was changed since the drag began", f"in {act} of the drag of"
+            raise BadInputError(what, f"{where} {self._name}", "begin another one (hull.drag)")
 
     def _arguments(self, given: dict[str, float | None]) -> dict[str, float]:
         """Take what was given; a drag takes d, or coordinates."""

@@ -21,7 +21,12 @@ from assoc_hull.creation.six_numbers import (
     design_for,
     with_areas,
 )
-from assoc_hull.creation.six_numbers_net import build_typed, dips_below_base, with_room
+from assoc_hull.creation.six_numbers_net import (
+    build_typed,
+    dips_below_base,
+    passes_side,
+    with_room,
+)
 from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError, RefusedEditError
 from assoc_hull.hull.hull import Hull
 from assoc_hull.model.forms.closure import coefficients
@@ -143,7 +148,8 @@ def _made(request: _Request) -> Hull:
         for count, each in enumerate(found, 1)
     ]
     hull.adoption = report
-    hull.notes = (*typed.notes, *dips_below_base(hull.state), *doubts)
+    measured = (*dips_below_base(hull.state), *passes_side(hull.state))
+    hull.notes = (*typed.notes, *measured, *doubts)
     return hull
 
 

@@ -64,7 +64,12 @@ class HullWidget(anywidget.AnyWidget):
     def selection(self) -> Point | None:
         """The point that was chosen last; None where none is, or it is gone."""
         rows = self.hull.state.rows
-        if self._row is None or self._row >= rows.count or not rows.alive[self._row]:
+        if (
+            self._shared is None
+            or self._row is None
+            or self._row >= rows.count
+            or not rows.alive[self._row]
+        ):
             return None
         return Point.of(self.hull.state, self._row)
 
@@ -78,7 +83,7 @@ class HullWidget(anywidget.AnyWidget):
             return
         if "row" in content:
             row = content["row"]
-            self._row = row if isinstance(row, int) and row >= 0 else None
+            self._row = row if type(row) is int and row >= 0 else None
         elif content.get("gone"):
             gone = self._views.pop(name, None)
             if gone is not None:
@@ -90,7 +95,12 @@ class HullWidget(anywidget.AnyWidget):
             view.take(content.get("text"))
 
     def _tell(self, content: dict[str, object], buffers: list[bytes]) -> None:
-        self.send(content, buffers=buffers or None)
+        try:
+            self.send(content, buffers=buffers or None)
+        except Exception:  # whatever a kernel raises that is going: nobody hears this view any more
+            gone = self._views.pop(str(content.get("view")), None)
+            if gone is not None:
+                gone.leave()
 
     def close(self) -> None:
         """End the widget; the hull stays as it is."""

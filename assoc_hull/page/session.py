@@ -11,6 +11,7 @@ import contextlib
 import json
 import logging
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -19,6 +20,7 @@ from typing import Any, ClassVar, Protocol, cast
 import attrs
 import numpy as np
 
+from assoc_hull.edit.document import SIGNED
 from assoc_hull.edit.drag import Drag, DragWay, Live
 from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.report import EditReport
@@ -91,11 +93,13 @@ class _Gesture:
     drag: Drag
     place: list[float]
     let_go: bool = False
+    touched: float = attrs.field(factory=time.monotonic)
 
 
 _Job = tuple[Client, Message | None]
 _IDLE: _Job = None, None  # type: ignore[assignment]
 _LOOK_AGAIN = 0.2  # s
+_FORGOTTEN = 30.0  # s without a move: another may take the hull from a view that has vanished
 
 
 class Session:
@@ -169,16 +173,22 @@ class Session:
 
     def _work(self) -> None:
         while (job := self._next()) is not None:
-            self._show_others()
-            if job is _IDLE:
-                continue
-            client, message = job
-            if message is None:
-                self._forget(client)
-                continue
-            with self._told(client, message):
-                self._acts[type(message)](self, client, message)
+            try:
+                self._show_others()
+                if job is not _IDLE:
+                    self._do(*job)
+            except Exception:  # one message that fails must not silence the page for everybody
+                self._faults += 1
+                _LOG.exception("fault %d of the page's session", self._faults)
         self._end_gesture()
+
+    def _do(self, client: Client, message: Message | None) -> None:
+        """Do what a client asks for; None says that it has gone."""
+        if message is None:
+            self._forget(client)
+            return
+        with self._told(client, message):
+            self._acts[type(message)](self, client, message)
 
     def _next(self) -> _Job | None:
         """Wait for a job; `_IDLE` where none came, None at the end."""
@@ -192,11 +202,17 @@ class Session:
         """Show what others have made of the hull in this process since it was shown last."""
         if self.hull.state_number == self._shown:
             return
+        held = self._gesture
         self._end_gesture()  # it was begun on another hull
+        if held is not None:
+            why = ("the hull was changed in another place; take hold of the point again",)
+            self._refuse(held.client, held.number, 0, why, held.row)
         try:
             self._publish(self._shown)
-        except AssocHullError:  # the other one goes on meanwhile: it is looked at again
-            _LOG.exception("another edit could not be shown")
+        except AssocHullError:  # too much has changed since: all is told
+            number = self.hull.state_number
+            self._tell_net(self._clients)
+            self._shown = number
 
     @contextlib.contextmanager
     def _told(self, client: Client, message: Message) -> Iterator[None]:
@@ -239,7 +255,8 @@ class Session:
 
     def _hello(self, client: Client, message: Hello) -> None:
         client.author = message.author
-        self._clients.append(client)
+        if client not in self._clients:
+            self._clients.append(client)
         path = self.hull.path
         file = None if path is None else path.name
         _send(client, {"t": "session", "author": client.author, "file": file})
@@ -284,6 +301,9 @@ class Session:
         """Say who else has a point in hand: nobody takes the hull from under it."""
         if (held := self._gesture) is None or held.client is client:
             return None
+        if time.monotonic() - held.touched > _FORGOTTEN:
+            self._end_gesture()
+            return None
         name = address(self.hull.state, held.row)
         return f"{held.client.author} holds {name}; wait until it is let go"
 
@@ -301,6 +321,7 @@ class Session:
     def _to(self, client: Client, message: To) -> None:
         if (held := self._held(client, message.gesture)) is None:
             return  # it was let go meanwhile
+        held.touched = time.monotonic()
         live = held.drag.to(**message.amounts)
         if held.let_go:
             return  # nobody waits for the answer, which may be that it was stopped
@@ -500,13 +521,12 @@ class Session:
 
     @contextlib.contextmanager
     def _signed(self, client: Client) -> Iterator[None]:
-        """Sign what is done by the name of a client."""
-        name = self.hull.author
-        self.hull.author = client.author
+        """Sign what this thread does by the name of a client; others sign by their own."""
+        signed = SIGNED.set(client.author)
         try:
             yield
         finally:
-            self.hull.document.author = name  # which may be empty
+            SIGNED.reset(signed)
 
     def _read(self, client: Client, message: Message, job: Callable[[], None]) -> None:
         """Do something with a copy of the hull in the thread of readers; drags go on."""
@@ -519,10 +539,11 @@ class Session:
 
     def _publish(self, before: int) -> None:
         """Tell everybody what has changed since a state."""
-        self._shown = self.hull.state_number
+        number = self.hull.state_number
         changed, state = self.hull.since(before), self.hull.state
         if changed.structural:
             self._tell_net(self._clients)
+            self._shown = number
             return
         curves = changed.curves[state.curves.alive[changed.curves]]
         # Watched points follow their curves, and are no part of what an edit tells of itself.
@@ -532,6 +553,7 @@ class Session:
         spline = joined([state.spline(curve) for curve in curves.tolist()])
         frame = Frame(FrameKind.PUBLISHED, state.number, curves, spline, rows, state.rows.xyz[rows])
         self._tell_all(self._clients, pack(frame))
+        self._shown = number  # only now: what could not be shown is looked at again
 
     def _tell_net(self, clients: list[Client]) -> None:
         """Tell all of the hull."""

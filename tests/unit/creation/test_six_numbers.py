@@ -250,3 +250,20 @@ def test_a_cw_that_is_asked_for_is_that_of_the_definition() -> None:
         design = design_for(SHIP_TYPES["general cargo"], six, cw=cw).design
         found = coefficients(design.definition("design_waterline"), design.particulars)
         assert found.fullness == pytest.approx(cw, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("kind", "six"),
+    [
+        ("general cargo", (100.0, 16.0, 6.5, 9.0, 0.7, 0.0)),
+        ("ro-ro", (160.0, 25.0, 6.8, 15.0, 0.58, -2.5)),
+    ],
+)
+def test_no_line_passes_the_side(kind: str, six: tuple[float, ...]) -> None:
+    """Points are within a millimetre of half the breadth, lines between them within two."""
+    names = ("length", "breadth", "draught", "depth", "cb", "lcb_percent")
+    hull = ah.create(**dict(zip(names, six, strict=True)), type=kind)  # type: ignore[arg-type]
+    widest = hull.state.rows.xyz[hull.state.live("rows")][:, 1].max()
+    assert abs(widest - 0.5 * six[1]) < 1e-3
+    told = [note.value for note in hull.notes if note.name == "beyond half the breadth"]
+    assert all(value < 2e-3 for value in told)

@@ -137,3 +137,58 @@ def test_a_widget_ends_and_leaves_the_hull(hull: ah.Hull) -> None:
     with hull.edit("after") as edit:
         edit.move("WL 4.16667 x ST 2", y=hull.points["WL 4.16667 x ST 2"].y + 0.01)
     assert len(hull.history) == 1
+
+
+def test_a_cell_and_a_view_sign_by_their_own_names(hull: ah.Hull) -> None:
+    """Also where one waits for the other."""
+    hull.author = "cell"
+    shared, told = SharedSession.take(hull), Told()
+    view = View("a", shared.session, told)
+    view.take(hello())
+    told.until(lambda each: each.has("state"))
+    ops = [{"op": "move", "point": "WL 4.16667 x ST 1", "y": 1.5}]
+    with hull.edit("in a cell") as edit:
+        edit.move("WL 4.16667 x ST 2", y=hull.points["WL 4.16667 x ST 2"].y + 0.01)
+        view.take(json.dumps({"t": "apply", "id": 5, "name": "by hand", "ops": ops}))
+        time.sleep(0.3)
+    told.until(lambda each: each.has("done"))
+    assert [(step.name, step.author) for step in hull.history] == [
+        ("in a cell", "cell"), ("by hand", "anna"),
+    ]  # fmt: skip
+    assert hull.author == "cell"
+    shared.give_back()
+
+
+def test_who_holds_a_point_is_told_that_a_cell_has_changed_the_hull(hull: ah.Hull) -> None:
+    """The point is let go; the page goes on."""
+    shared, told = SharedSession.take(hull), Told()
+    view, point = View("a", shared.session, told), hull.points["WL 4.16667 x ST 2"]
+    view.take(hello())
+    begin = {"t": "begin", "gesture": 1, "row": point.number, "how": "move", "radius": None}
+    view.take(json.dumps(begin))
+    told.until(lambda each: each.has("grip"))
+    with hull.edit("in a cell") as edit:
+        edit.move("WL 4.16667 x ST 1", y=1.5)
+    told.until(lambda each: each.has("refused"))
+    refused = next(each for each in told.texts if each["t"] == "refused")
+    assert "changed in another place" in refused["reasons"][0]
+    view.take(json.dumps(begin | {"gesture": 2}))
+    told.until(lambda each: sum(one["t"] == "grip" for one in each.texts) == 2)
+    shared.give_back()
+
+
+def test_a_view_that_cannot_be_told_does_not_silence_the_others(hull: ah.Hull) -> None:
+    """The worker goes on."""
+
+    class Broken(Told):
+        def __call__(self, content: dict[str, object], buffers: list[bytes]) -> None:
+            raise RuntimeError("the kernel is going")
+
+    shared, told = SharedSession.take(hull), Told()
+    View("a", shared.session, Broken()).take(hello())
+    view = View("b", shared.session, told)
+    view.take(hello())
+    told.until(lambda each: each.has("state"))
+    view.take(json.dumps({"t": "check", "id": 7}))
+    told.until(lambda each: each.has("answer"))
+    shared.give_back()
