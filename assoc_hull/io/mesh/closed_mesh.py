@@ -80,7 +80,8 @@ class FiledMesh:
             plane.
         """
         places, tunnels = rounded(mesh.xyz * scale), mesh.report.tunnels
-        every = [(0, mesh.report.triangles, 1, tunnels, "a file", "mend the lines there")]
+        end = min((each.first for each in mesh.bodies), default=len(mesh.triangle))
+        every = [(0, end, 1, tunnels, "a file", "mend the lines there")]
         every += [
             (each.first, each.last, each.sign, 0, f"the body {each.name!r} in a file",
              "leave it out of the mesh, by leave_out")
