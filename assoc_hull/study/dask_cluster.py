@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING
 import attrs
 
 from assoc_hull.arguments import shown
+from assoc_hull.edit.garbage_collection import PausedCollector
 from assoc_hull.errors import (
     BadInputError,
     ClusterError,
@@ -114,7 +115,7 @@ def open_cluster(cluster: object, workers: int | None) -> Iterator[Client]:
         with (
             tempfile.TemporaryDirectory() as folder,
             _begun(workers or os.cpu_count() or 1, folder) as made,
-            distributed.Client(made, set_as_default=False) as client,
+            _client_of(made) as client,
         ):
             yield client
     elif isinstance(cluster, str):
@@ -151,12 +152,23 @@ def _quiet() -> Iterator[None]:
         logger.setLevel(before)
 
 
+def _client_of(cluster: LocalCluster) -> Client:
+    """Give a client of processes of this machine."""
+    import distributed
+
+    with PausedCollector():  # as in `_called`
+        return distributed.Client(cluster, set_as_default=False)
+
+
 def _called(address: str) -> Client:
     """Call the scheduler at an address."""
     import distributed
 
     try:
-        return distributed.Client(address, timeout=_PATIENCE / 3.0, set_as_default=False)
+        # A client that was lost ends itself when it is collected, under the lock that a new one
+        # holds while it begins: the two would wait for one another for ever.
+        with PausedCollector():
+            return distributed.Client(address, timeout=_PATIENCE / 3.0, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         place, why = (" ".join(str(each).split())[:120] for each in (address, error))
         raise ClusterError(
