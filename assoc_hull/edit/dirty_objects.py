@@ -95,7 +95,7 @@ class Dirty(ShownAsText, Mapping[str, DirtyCause]):
 
     @property
     def perhaps(self) -> tuple[Curve, ...]:
-        """Curves that only a gap to be mended, or a new crossing, would make dirty as well."""
+        """Curves that a mended gap, a new crossing or a feature drawn anew would make dirty."""
         return self._curves(map(Node.curve, sorted(self._nodes.perhaps)))
 
     def _curves(self, nodes: Iterator[int]) -> tuple[Curve, ...]:
@@ -123,8 +123,9 @@ class Dirty(ShownAsText, Mapping[str, DirtyCause]):
         if more := len(self._by_name) - curves - points:
             counts.append(_counted(more, "definition"))
         found = f"dirty because of {joined_words(self.asked)}: {', '.join(counts)}"
-        rest = self._nodes.perhaps
-        return found + (f"; {_counted(len(rest), 'more curve')} if a gap opens" if rest else "")
+        if rest := len(self._nodes.perhaps):
+            found += f"; {_counted(rest, 'more curve')} if a gap opens or a feature bends"
+        return found
 
     def __repr__(self) -> str:
         return f"<Dirty: {self}>"

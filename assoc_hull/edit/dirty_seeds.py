@@ -2,8 +2,8 @@
 
 It starts from the points, curves and definitions that were asked for, each with the words of what
 asked for it, and goes on to all that is made from these. That is an upper bound: an update stops
-where something comes out as it was. Curves that only a mended gap or a new crossing would make it
-loft are told beside.
+where something comes out as it was. Curves that only a mended gap, a new crossing or a
+feature that is drawn anew would make it loft are told beside.
 """
 
 from __future__ import annotations
@@ -14,10 +14,11 @@ import numpy as np
 
 from assoc_hull.edit.asked_words import asked_words
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.followup.redraw_features import redrawable_points
 from assoc_hull.edit.modification import Extent, Pending
 from assoc_hull.edit.recording import Said
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.graph.network import spread
+from assoc_hull.graph.network import closure, spread
 from assoc_hull.model.dirty_nodes import DirtyNodes
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import latent_curves
@@ -104,7 +105,7 @@ def _sorted(numbers: frozenset[int]) -> IntArray:
 
 
 def _perhaps(network: HullNetwork, curves: IntArray) -> frozenset[int]:
-    """Give the curves that mended gaps and new crossings may make dirty beside some curves."""
+    """Give the curves that mended gaps, new crossings and features drawn anew may make dirty."""
     state = network.state
     alive = curves[state.curves.alive[curves]]
     table = state.rows
@@ -113,6 +114,13 @@ def _perhaps(network: HullNetwork, curves: IntArray) -> frozenset[int]:
     beside = pairs[np.isin(pairs, alive).any(axis=1)].ravel()
     latent = [latent_curves(state, curve) for curve in alive.tolist()]
     others = np.unique(np.concatenate([beside, *latent, _NONE]))
-    reached = spread(network, Node.curve(others)).reader
-    every: IntArray = Node.number(reached[Node.is_curve(reached)])
+    every, found = alive, Node.curve(others)
+    while True:
+        # a feature on a line that changed may be drawn anew, and bend the one beside it
+        drawn = redrawable_points(state, every)
+        found = closure(network, np.concatenate([found, Node.curve(every), Node.point(drawn)]))
+        more: IntArray = Node.number(found[Node.is_curve(found)])
+        if len(more) == len(every):
+            break
+        every = more
     return frozenset(every[state.curves.alive[every]].tolist()) - set(curves.tolist())

@@ -349,13 +349,12 @@ class AddressBook:
 
     def _own_rows(self, line: int, sort: Sort) -> list[int]:
         """Give the placed or adopted points of a line, in order along it."""
-        table = self.state.rows
-        return [
-            row
-            for curve in self._pieces(line)
-            for row in self.state.curves.rows[curve].tolist()
-            if table.sort[row] == sort and table.alive[row]
-        ]
+        table, own = self.state.rows, self.state.curves.rows
+        found = list[int]()
+        for curve in self._pieces(line):
+            rows = own[curve]
+            found += rows[(table.sort.data[rows] == int(sort)) & table.alive.data[rows]].tolist()
+        return found
 
     def usual_side(self, row: int) -> int:
         """Give the side from which a point is named: the line of higher rank first."""

@@ -22,8 +22,8 @@ class DirtyNodes:
     source : dict of int to int
         By node, the node through which it was reached; itself, if it was asked for.
     perhaps : frozenset of int
-        Curves that are none of these, and are lofted only where a gap has to be mended or a
-        crossing is born.
+        Curves that are none of these, and are lofted only where a gap has to be mended, a crossing
+        is born, or a feature that was bent by a little is drawn anew.
     """
 
     asked: tuple[str, ...] = ()

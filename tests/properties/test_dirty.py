@@ -9,7 +9,7 @@ import assoc_hull as ah
 from assoc_hull.edit.report import EditReport
 from assoc_hull.errors import AssocHullError
 from tests.long_forms import LONG
-from tests.net_strategies import SHAPES, STRUCTURE, Task, hulls, perform, tasks
+from tests.net_strategies import SHAPES, STRUCTURE, Act, Task, fresh, hulls, perform, tasks
 
 COUNT = 250 if LONG else 15
 """Examples, each of up to four edits."""
@@ -43,12 +43,25 @@ def carried_out(hull: ah.Hull, task: Task) -> Seen | None:
 @settings(max_examples=COUNT)
 @given(hulls(), tasks((*SHAPES, *STRUCTURE), largest=0.05))
 def test_what_is_lofted_was_dirty(hull: ah.Hull, edits: list[Task]) -> None:
-    """But for what mends a gap or bears a crossing: that was told as perhaps dirty."""
+    """But for what mends a gap, bears a crossing or draws a feature anew: told as perhaps dirty."""
     for task in edits:
         seen = carried_out(hull, task)
         if seen is None:
             continue
         lofted = set(seen.report.relofted)
         assert lofted <= seen.dirty | seen.perhaps
-        if not (seen.report.mended or seen.report.born or seen.report.gone):
+        drawn = any(note.startswith("features drawn anew") for note in seen.report.notes)
+        if not (seen.report.mended or seen.report.born or seen.report.gone or drawn):
             assert lofted <= seen.dirty
+
+
+def test_what_a_feature_drawn_anew_lofts_was_told_as_perhaps_dirty() -> None:
+    """A line rounded in one edit, and bent by a line beside it in the next."""
+    hull = fresh(0)
+    assert carried_out(hull, Task((Act("round", 5, 26717, 0.0),))) is not None
+    seen = carried_out(hull, Task((Act("straighten", 0, 0, 0.0),)))
+    assert seen is not None
+    assert any(note.startswith("features drawn anew") for note in seen.report.notes)
+    beyond = set(seen.report.relofted) - seen.dirty
+    assert beyond
+    assert beyond <= seen.perhaps

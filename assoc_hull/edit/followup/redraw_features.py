@@ -33,7 +33,7 @@ from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.tables import HullState
 from assoc_hull.tolerance import round_at_size
 
-__all__ = ["redraw_features"]
+__all__ = ["redraw_features", "redrawable_points"]
 
 _TURN = 0.01
 """The tangents at the ends of an arc are those of before within this angle, rad."""
@@ -47,6 +47,9 @@ on purpose is not to be undone."""
 
 _ROUNDS = 3
 """A feature that is drawn anew may bend one beside it, seldom more."""
+
+_ON_THEIR_ENDS = frozenset({"straight", "arc", "circle"})
+"""Kinds that are drawn anew from their ends."""
 
 _TOLD = 3
 """So many features a note names."""
@@ -146,6 +149,23 @@ def redraw_features(
     return np.unique(np.concatenate([rows[:0], *(each.rows for each in told)]))
 
 
+def redrawable_points(state: HullState, curves: IntArray) -> IntArray:
+    """Give the points that may be put elsewhere because some curves (k,) change, ascending.
+
+    Those between the ends of a straight run, an arc or a circle on such a curve; in a flat, whose
+    plane stays, only what moved is put back.
+    """
+    lines = {str(state.lines.key[state.line_of(curve)]) for curve in curves.tolist()}
+    inner = {
+        row
+        for feature in state.features
+        if feature.kind in _ON_THEIR_ENDS and not lines.isdisjoint(feature.lines)
+        for row in feature.points[1:-1]
+        if _is_free(state, row)
+    }
+    return np.array(sorted(inner), np.int64)
+
+
 def _bent(edit: _Edit) -> tuple[list[_Redrawn], frozenset[str]]:
     """Give the features that can be drawn anew, and the keys of those that need not be."""
     work, state = edit.work, edit.work.state
@@ -235,8 +255,10 @@ def _redrawn(edit: _Edit, feature: Feature) -> _Redrawn | None:
     ends = set[int]() if feature.kind == "flat" else {feature.points[0], feature.points[-1]}
     rows, goals, stays = list[int](), list[FloatArray](), np.ones(len(points), np.bool_)
     for at, row in enumerate(feature.points):
+        # the plane of a flat stays: of its points only those are put back that have moved
+        stays_there = feature.kind == "flat" and not (xyz[at] != edit.was(row)).any()
         free = row not in ends and row not in edit.asked and _is_free(state, row)
-        goal = _goal(state, shape, row, (xyz[0], xyz[-1])) if free else None
+        goal = _goal(state, shape, row, (xyz[0], xyz[-1])) if free and not stays_there else None
         if goal is None:
             continue
         stays[at] = False
