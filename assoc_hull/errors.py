@@ -877,5 +877,5 @@ class DanglingArcError(AssocHullError, ArithmeticError):
             f"{which} of lines of the zero set break off, the first on surface {self.surface}, "
             f"patch {self.patch}, at u = {self.uv[0]:.9g}, v = {self.uv[1]:.9g}, {self.gap:.3g} of "
             "the patch from the next end; give a larger delta (the uncertainty of control "
-            "points), so that noise is taken as nil"
+            "points), so that noise is taken as zero"
         )

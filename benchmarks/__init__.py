@@ -1,1 +1,1 @@
-"""Benchmarks: figures side by side in one run; see docs/benchmarks.md."""
+"""Benchmarks: figures side by side in one run; see docs/benchmarks.md and benchmarks/figures.md."""

@@ -162,6 +162,24 @@ def plain_ship() -> Figure:
     return lines_plan(examples.plain_ship(), paper="A4")
 
 
+def six_numbers() -> Figure:
+    """Draw the lines plan of a cargo ship from six numbers and a type."""
+    numbers = {"length": 100.0, "breadth": 16.0, "draught": 6.5, "depth": 9.0}
+    hull = ah.create(**numbers, cb=0.70, lcb=0.0, type="general cargo")
+    return lines_plan(hull, paper="A4")
+
+
+def history_change() -> Figure:
+    """Draw what two edits have changed since the first state, 50 times as large."""
+    hull = examples.wigley()
+    before = hull.plot.snapshot()
+    with hull.edit("fuller shoulder") as edit:
+        edit.pull("WL 2.5 x ST 12", d=0.02, radius=(12.0, 3.0))
+    with hull.edit("finer run") as edit:
+        edit.move("WL 2.5 x ST 4", y=2.04)
+    return hull.plot.before_after(before, exaggerate=50, paper="A4")
+
+
 def prelikon_ship() -> Figure:
     """Draw the lines plan of the supply ship of main types."""
     return lines_plan(examples.prelikon_ship(), paper="A4")
@@ -184,6 +202,8 @@ def definitions() -> Figure:
 
 PICTURES: dict[str, Callable[[], Figure]] = {
     "plain_ship": plain_ship,
+    "six_numbers": six_numbers,
+    "history_change": history_change,
     "definitions": definitions,
     "prelikon_ship": prelikon_ship,
     "seaking_ship": seaking_ship,

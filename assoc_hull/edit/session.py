@@ -628,7 +628,7 @@ class Edit:
     ) -> None:
         """Make the hollow or the bump of a line at a point longer and shallower.
 
-        Its area stays (that between the line and what it was is nil), and its ends are tangent
+        Its area stays (the area between the old and the new line is zero), and its ends are tangent
         to the line; the hull follows.
 
         Parameters

@@ -2040,7 +2040,7 @@ features
             of a buttock z over x. Fourier descriptors take y as one of the two.
         span : (float, float), "perpendiculars" or None, m
             Range of the abscissa: between two places, from AP to FP, or the whole curve (the wetted
-            length, of sectional areas). Beyond the curve the ordinate is nil. Of Fourier
+            length, of sectional areas). Beyond the curve the ordinate is zero. Of Fourier
             descriptors, range of the coordinate that is not y.
         relative : bool or None
             Divide by the largest ordinate; None does so for sectional areas only.
@@ -2333,7 +2333,7 @@ features
             Changes of present values, by the same names; what is in `to` cannot be here.
         shape : str
             Of the movement between parallel body and end: ``"c2"`` leaves with slope and curvature
-            nil at both; ``"c1"``, ``"end"``, ``"half"``, ``"lackenby"`` are those of
+            zero at both; ``"c1"``, ``"end"``, ``"half"``, ``"lackenby"`` are those of
             `assoc_hull.variation.fields.shift_shapes.BUMP_SHAPES`; ``"1-cp"`` is a straight line,
             which lengthens the parallel body.
         terminals : (4,), m from AP, or Terminals
@@ -2655,7 +2655,7 @@ features
         ------
         BadInputError, UnknownNameError
             A curve of the hull has failed; there is no such line; lines that no blocks were found
-            between; numbers that are none, or below nil.
+            between; numbers that are none, or below 0.
 
         Examples
         --------

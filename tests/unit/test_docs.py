@@ -9,6 +9,9 @@ from types import ModuleType
 
 import pytest
 
+import assoc_hull as ah
+from assoc_hull.edit.session import Edit
+
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md"]
 PAGES += sorted((ROOT / "docs").glob("*.md"))
@@ -30,6 +33,14 @@ def _script(name: str) -> ModuleType:
 BLOCKS = _script("blocks")
 
 
+REFERENCE = {
+    f"{each.__module__}.{each.__qualname__}.{name}"
+    for each in (ah.Hull, Edit)
+    for name in vars(each)
+}
+"""Anchors of the generated reference, `docs/api.md`: the site makes one for each method."""
+
+
 def _name(page: Path) -> str:
     return page.relative_to(ROOT).as_posix()
 
@@ -38,7 +49,8 @@ def _headings(page: Path) -> set[str]:
     """The anchors of a page, as the usual renderers of Markdown make them."""
     lines = FENCE.sub("", page.read_text("utf-8")).splitlines()
     titles = [line.lstrip("#").strip() for line in lines if re.match(r"#+ ", line)]
-    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+    named = {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+    return named | REFERENCE if page.name == "api.md" else named
 
 
 @pytest.mark.usefixtures("made_already")

@@ -532,7 +532,10 @@ class ClosedMesh(ShownAsText):
         bend = [f"{1000.0 * each:.1f}" for each in self.sagitta.tolist()]
         rows = [
             ("mesh", f"{sides}; {self.cells} cells a half, {self.steps} points to an edge"),
-            ("triangles", f"{report.triangles}, {report.vertices} vertices, {report.nil} nil"),
+            (
+                "triangles",
+                f"{report.triangles}, {report.vertices} vertices, {report.nil} without area",
+            ),
             ("area", areas),
             ("watertight", closed if report.sound else ajar),
             ("volume", f"{volume} m3, by x, y and z" if report.sound else "none: it is open"),

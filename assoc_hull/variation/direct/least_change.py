@@ -325,7 +325,7 @@ def _weights(weights: ArrayLike, count: int) -> FloatArray:
     if len(given) != count or (given <= 0.0).any():
         raise BadInputError(
             f"{len(given)} weights, the least {given.min(initial=np.inf):g}", _WHERE,
-            f"give {count} above nil",
+            f"give {count} above 0",
         )  # fmt: skip
     return given
 

@@ -441,7 +441,7 @@ class Ramp:
         if not np.isfinite([self.begin, self.width, self.slope_]).all() or self.width == 0.0:
             raise BadInputError(
                 f"a ramp from {self.begin:g} m, {self.width:g} m wide, slope {self.slope_:g}",
-                "in vary", "give finite numbers and a width other than nil",
+                "in vary", "give finite numbers and a width other than 0",
             )  # fmt: skip
 
     @property
