@@ -8,6 +8,12 @@ import sys
 
 import pytest
 
+import assoc_hull as ah
+from assoc_hull.model.definition.fingerprint import fingerprint
+from assoc_hull.shipped.bulk_carrier_207k import bulk_carrier_207k_adopted
+from assoc_hull.shipped.series60 import series60_adopted
+from tests.long_forms import LONG
+
 SHUFFLES = """
 import random, sys
 from importlib import import_module
@@ -15,7 +21,7 @@ import assoc_hull.edit.adoption.adopt_lines as home
 from assoc_hull.hull import Hull
 from assoc_hull.model.definition.fingerprint import fingerprint
 
-seed = int(sys.argv[1])
+seed, turns = int(sys.argv[1]), int(sys.argv[2])
 plain = home.adopt
 
 def shuffled(sources, particulars, associations, tolerances=None, grown=None):
@@ -37,7 +43,8 @@ makers = {
 }
 for name, make in makers.items():
     # Ships take long: one shuffle of one of them in every process.
-    for turn in range({"series60-060": seed % 2, "series60-070": 1 - seed % 2, "wigley": 2}[name]):
+    counts = {"series60-060": seed % 2, "series60-070": 1 - seed % 2, "wigley": turns}
+    for turn in range(counts[name]):
         chance = random.Random(1000 * seed + turn)
         state = make()
         print(name, fingerprint(state))
@@ -56,42 +63,60 @@ else:
 """
 
 
+COUNT = 4 if LONG else 2
+"""Processes; half of them shuffle one ship, half the other."""
+
+TURNS = 2 if LONG else 1
+"""Shuffles of the small net in each."""
+
+
 @pytest.fixture(scope="module")
 def printed() -> list[list[str]]:
-    """Four processes with hash seeds of their own, in each four shuffled nets."""
+    """Processes with hash seeds of their own, in each some shuffled nets."""
     running = [
         subprocess.Popen(
-            [sys.executable, "-c", SHUFFLES, str(seed)],
+            [sys.executable, "-c", SHUFFLES, str(seed), str(TURNS)],
             env={**os.environ, "PYTHONHASHSEED": str(seed)},
             stdout=subprocess.PIPE,
             text=True,
         )
-        for seed in range(1, 5)
+        for seed in range(1, COUNT + 1)
     ]
     return [process.communicate(timeout=300)[0].splitlines() for process in running]
 
 
-@pytest.mark.parametrize(
-    ("name", "count"), [("wigley", 8), ("led", 8), ("series60-060", 2), ("series60-070", 2)]
-)
-def test_all_shuffles_in_four_processes_give_one_fingerprint(
-    printed: list[list[str]], name: str, count: int
+def marks(printed: list[list[str]], name: str, count: int) -> set[str]:
+    """Give the fingerprints that were printed for a net, once each, of so many shuffles."""
+    found = [line.split()[1] for lines in printed for line in lines if line.startswith(f"{name} ")]
+    assert len(found) == count
+    return set(found)
+
+
+def test_all_shuffles_of_a_small_net_give_the_fingerprint_of_the_plain_order(
+    printed: list[list[str]],
 ) -> None:
     """Ids come from content, never from a counter or a hash."""
-    found = [line for lines in printed for line in lines if line.startswith(name)]
-    assert len(found) == count
-    assert len(set(found)) == 1
+    assert marks(printed, "wigley", COUNT * TURNS) == {ah.examples.wigley().fingerprint}
+
+
+def test_leads_of_a_shuffled_net_give_one_fingerprint(printed: list[list[str]]) -> None:
+    """In every process."""
+    assert len(marks(printed, "led", COUNT * TURNS)) == 1
+
+
+@pytest.mark.parametrize(("name", "cb"), [("series60-060", 0.60), ("series60-070", 0.70)])
+def test_shuffled_ships_have_the_fingerprint_of_the_plain_order(
+    printed: list[list[str]], name: str, cb: float
+) -> None:
+    """Each in half of the processes."""
+    assert marks(printed, name, COUNT // 2) == {fingerprint(series60_adopted(cb)[0])}
 
 
 def test_the_whole_net_of_series_60_does_not_depend_on_the_order(printed: list[list[str]]) -> None:
-    """Lines cut from a shuffled net, in two processes."""
-    found = [line for lines in printed for line in lines if line.startswith("whole ")]
-    assert len(found) == 2
-    assert len(set(found)) == 1
+    """Lines cut from a shuffled net, in half of the processes."""
+    assert marks(printed, "whole", COUNT // 2) == {ah.examples.series60().fingerprint}
 
 
 def test_lines_of_several_pieces_do_not_depend_on_the_order(printed: list[list[str]]) -> None:
-    """The bulk carrier from shuffled sources, in two processes."""
-    found = [line for lines in printed for line in lines if line.startswith("carrier ")]
-    assert len(found) == 2
-    assert len(set(found)) == 1
+    """The bulk carrier from shuffled sources, in half of the processes."""
+    assert marks(printed, "carrier", COUNT // 2) == {fingerprint(bulk_carrier_207k_adopted()[0])}

@@ -1,0 +1,45 @@
+"""The least of a quadratic function within bounds meets its conditions, rings of sets or not."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.sparse import csr_array
+
+from assoc_hull.analysis.fairness.box_solver import solve_in_box
+
+
+@given(seed=st.integers(0, 2**32 - 1), size=st.integers(1, 60), width=st.floats(0.05, 3.0))
+def test_forces_at_the_least_press_against_the_bounds(seed: int, size: int, width: float) -> None:
+    """Free unknowns feel none; stiff battens, whose inverses have both signs, make sets ring."""
+    rng = np.random.default_rng(seed)
+    stiff = 10.0 ** rng.uniform(-1.5, 1.5, (size, 1))
+    second = np.diff(np.eye(size + 2), 2, axis=0)[:, 1:-1] * stiff
+    dense = second.T @ second + np.diag(rng.uniform(1e-3, 0.1, size))
+    gradient = dense @ rng.normal(0.0, 1.0, size)
+    low, high = -width * rng.uniform(0.1, 1.0, size), width * rng.uniform(0.1, 1.0, size)
+    found = solve_in_box(csr_array(dense), gradient, low, high)
+    assert (found.values >= low).all()
+    assert (found.values <= high).all()
+    force = dense @ found.values + gradient
+    near = 1e-9 * (np.abs(dense) @ np.abs(found.values) + np.abs(gradient))
+    free = found.side == 0
+    assert (np.abs(force[free]) <= near[free]).all()
+    assert (force[found.side > 0] <= near[found.side > 0]).all()
+    assert (force[found.side < 0] >= -near[found.side < 0]).all()
+    assert (found.values[found.side > 0] == high[found.side > 0]).all()
+    assert (found.values[found.side < 0] == low[found.side < 0]).all()
+
+
+@given(seed=st.integers(0, 2**32 - 1), size=st.integers(2, 40))
+def test_where_one_begins_changes_no_bit(seed: int, size: int) -> None:
+    """A set that is known beforehand, right or wrong, saves time only."""
+    rng = np.random.default_rng(seed)
+    second = np.diff(np.eye(size + 2), 2, axis=0)[:, 1:-1]
+    dense = second.T @ second + 1e-2 * np.eye(size)
+    gradient, bound = rng.normal(0.0, 1.0, size), np.full(size, 0.3)
+    plain = solve_in_box(csr_array(dense), gradient, -bound, bound)
+    side = rng.integers(-1, 2, size)
+    other = solve_in_box(csr_array(dense), gradient, -bound, bound, side)
+    assert (plain.values == other.values).all()
