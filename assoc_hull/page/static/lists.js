@@ -98,6 +98,9 @@ export class Problems {
     this.render();
   }
 
+  /** The server has gone: what was found is of another session. */
+  lost() { this.asked = this.state = -1; }
+
   /** @param {any} _message */
   done(_message) {}
 
