@@ -135,11 +135,17 @@ class PageServer:
         self._server = uvicorn.Server(config)
         self._switch = sys.getswitchinterval()
         sys.setswitchinterval(_SWITCH)
-        self._thread = threading.Thread(
-            target=self._server.run, args=([self._socket],), name="assoc-hull page server"
-        )
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="assoc-hull page server")
         self._thread.start()
         return self
+
+    def _run(self) -> None:
+        assert self._server is not None
+        try:
+            self._server.run([self._socket])
+        finally:
+            self._ended.set()
 
     def _take_address(self) -> tuple[int, str]:
         """Take a port and a token, if possible those of a server of this file that was killed.
@@ -174,8 +180,9 @@ class PageServer:
         """Wait until the last page has been closed for a minute; for ever if `stay`."""
         assert self._thread is not None
         left = 0.0
-        while self._thread.is_alive():
-            self._thread.join(_LOOK_AGAIN)
+        # A join that Ctrl+C interrupts takes the thread for ended (Python 3.11), and `__exit__`
+        # would close the socket under it.
+        while not self._ended.wait(_LOOK_AGAIN):
             visited = self._visitors.ever and not self._visitors.now
             left = left + _LOOK_AGAIN if visited else 0.0
             if left >= _LEFT and not stay:
