@@ -451,7 +451,7 @@ export class Page {
     this.say(`${object} at (${[...at].map((each) => each.toFixed(3)).join(", ")}) m`);
   }
 
-  search() { this.bar.search.focus(); }
+  search() { this.bar.look(); }
 
   /** @param {string} name */
   find(name) {
