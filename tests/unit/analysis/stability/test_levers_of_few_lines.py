@@ -1,7 +1,5 @@
 """Levers of a ship on her side, of a net of few lines."""
 
-from pathlib import Path
-
 import attrs
 import numpy as np
 import pytest
@@ -24,6 +22,7 @@ TRUE = np.array([[2.64009, 2.61020], [2.54751, 2.52816]])
 
 @pytest.fixture(scope="module")
 def boat(tmp_path_factory: pytest.TempPathFactory) -> ah.Hull:
+    """Read the trawler once."""
     return trawler(tmp_path_factory.mktemp("trawler"))
 
 
