@@ -145,6 +145,7 @@ def test_an_end_that_grows_over_its_touch_ends_two_branches(touched: ah.Hull) ->
         varied(touched, (6.0, 6.0), (1.0, 1.2))
         ends = [point for point in touched.lines["BTK 1"].points if "bossing end" in point.name]
         away = np.sqrt(1.2**2 - 1.0)
-        assert sorted(point.z for point in ends) == pytest.approx([6.0 - away, 6.0 + away], abs=1e-6)
+        heights = sorted(point.z for point in ends)
+        assert heights == pytest.approx([6.0 - away, 6.0 + away], abs=1e-6)
         assert not any(point.kind == "knuckle" for point in ends)
         assert len(touched.lines["BTK 1"].curves) == 2

@@ -292,7 +292,10 @@ def _direct(
         full.append(spread)
     afloat = np.isfinite(full[0])
     mean, slope = np.where(afloat, mean, np.nan), np.where(afloat, slope, np.nan)
-    return HeeledShip(heel_deg.copy(), mean, slope, *full, np.zeros(len(heel)))
+    kn, gz, growth, energy, normal, distance = full
+    return HeeledShip(
+        heel_deg.copy(), mean, slope, kn, gz, growth, energy, normal, distance, np.zeros(len(heel))
+    )
 
 
 def _start(heel_deg: FloatArray, near: HeeledShip) -> tuple[FloatArray, FloatArray]:
