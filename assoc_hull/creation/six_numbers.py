@@ -109,6 +109,8 @@ class ShipType:
         Which formula gives CM: ``"kerlen"`` or ``"hsva"``.
     remark : str
         What the type lacks, for the notes.
+    draw : callable or None
+        Draws the design itself, by six numbers, CM, CW and a name; then none is carried.
     """
 
     name: str
@@ -118,6 +120,7 @@ class ShipType:
     stern: float
     midship: str = "kerlen"
     remark: str = ""
+    draw: Callable[[SixNumbers, float | None, float | None, str | None], TypedDesign] | None = None
 
 
 @attrs.frozen
@@ -132,11 +135,15 @@ class TypedDesign:
         One for each value that was not asked for.
     held : bool
         Whether CW was asked for: then the waterline gives way to no section.
+    drawn : bool
+        Whether it was drawn for its numbers: then its courses are fair as they are, and are not
+        solved, and its topsides flare beyond the breadth, which is that of the waterline.
     """
 
     design: Design
     notes: tuple[DesignNote, ...]
     held: bool = False
+    drawn: bool = False
 
 
 def design_for(
@@ -177,6 +184,12 @@ def design_for(
         error tells what the one may be at the other.
     """
     notes = _range_notes(kind, six)
+    if kind.draw is not None:
+        if bilge_radius is not None:
+            what = f"a {kind.name} has no bilge radius"
+            raise BadInputError(what, _CALL, "give cm, or leave bilge_radius out")
+        drawn = kind.draw(six, cm, cw, name)
+        return attrs.evolve(drawn, notes=(*notes, *drawn.notes))
     parent = kind.parent()
     ship = Particulars(
         name or f"{kind.name.capitalize()} {six.length:g} m",

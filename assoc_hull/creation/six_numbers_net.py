@@ -56,7 +56,7 @@ def build_typed(
 
     Raises BadInputError or OutOfRangeError where a section cannot be made after all that.
     """
-    design, notes, state, report = (_fair if solve else with_room)(typed)
+    design, notes, state, report = (_fair if solve and not typed.drawn else with_room)(typed)
     forms = Forms.of(design.definitions, design.particulars)
     document = Document(state)
 

@@ -121,9 +121,11 @@ def typed_ship(
     if known.get("cm") is not None and known.get("bilge_radius") is not None:
         raise BadInputError("cm and bilge_radius are both given", _CALL, "leave one out")
     title = None if name is None else text(name, "name", _CALL)
-    request = _Request(
-        ship_type(text(kind, "type", _CALL)), asked, percent is not None, **known, name=title
-    )
+    found = ship_type(text(kind, "type", _CALL))
+    if found.draw is not None and known.get("bilge_radius") is not None:
+        what = f"a {found.name} has no bilge radius"
+        raise BadInputError(what, _CALL, "give cm, or leave bilge_radius out")
+    request = _Request(found, asked, percent is not None, **known, name=title)
     try:
         return _made(request)
     except _MISFITS as error:
@@ -148,7 +150,9 @@ def _made(request: _Request) -> Hull:
         for count, each in enumerate(found, 1)
     ]
     hull.adoption = report
-    measured = (*dips_below_base(hull.state), *passes_side(hull.state))
+    measured = dips_below_base(hull.state)
+    if not typed.drawn:
+        measured += passes_side(hull.state)
     hull.notes = (*typed.notes, *measured, *doubts)
     return hull
 
@@ -256,7 +260,8 @@ def _usual(request: _Request, name: str) -> float | None:
     if not _can(request):
         return None
     notes = {each.name: each.value for each in request.design().notes}
-    return notes[{"cw": "CW", "cm": "CM", "bilge_radius": "bilge radius"}[name]]
+    # A type of round sections has no bilge radius.
+    return notes.get({"cw": "CW", "cm": "CM", "bilge_radius": "bilge radius"}[name])
 
 
 def _limits(name: str, six: SixNumbers) -> tuple[float, float]:

@@ -13,7 +13,7 @@ from assoc_hull.model.kinds import FAMILIES, Role, Sort
 from assoc_hull.model.links import free_axes
 from assoc_hull.model.tables import HullState, Particulars
 
-__all__ = ["describe_net", "describe_state"]
+__all__ = ["describe_net", "describe_state", "net_words"]
 
 
 def describe_net(state: HullState) -> dict[str, Any]:
@@ -51,6 +51,16 @@ def describe_net(state: HullState) -> dict[str, Any]:
             ],
         },
     }
+
+
+def net_words(state: HullState) -> tuple[object, ...]:
+    """Give what of `describe_net` may change though no line, point or role came or went."""
+    rows, labels = state.live("rows"), state.rows.label
+    return (
+        state.particulars, np.asarray(state.rows.kind[rows]).tobytes(),
+        tuple(state.lines.name[line] for line in state.live("lines").tolist()),
+        tuple(labels[row] for row in rows.tolist()),
+    )  # fmt: skip
 
 
 def _particulars(ship: Particulars) -> dict[str, Any]:

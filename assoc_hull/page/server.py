@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import getpass
 import os
 import secrets
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, Self
 from assoc_hull.arguments import flag, instance, integer, text
 from assoc_hull.errors import BadInputError, MissingExtraError
 from assoc_hull.hull.hull import Hull
+from assoc_hull.page.kept_address import KeptAddress
 from assoc_hull.page.session import Session
 
 if TYPE_CHECKING:
@@ -119,8 +121,9 @@ class PageServer:
 
         from assoc_hull.page.app import Visitors, make_app
 
-        self._socket = _listen(self._port)
-        port, token = int(self._socket.getsockname()[1]), secrets.token_urlsafe(32)
+        self._kept = KeptAddress.of(self.hull.path)
+        port, token = self._take_address()
+        self._kept.keep(port, token)
         self.address = f"http://{_HOST}:{port}/#t={token}&author={_quoted(self.author)}"
         self._visitors = Visitors()
         self._session = Session(self.hull)
@@ -132,11 +135,30 @@ class PageServer:
         self._server = uvicorn.Server(config)
         self._switch = sys.getswitchinterval()
         sys.setswitchinterval(_SWITCH)
-        self._thread = threading.Thread(
-            target=self._server.run, args=([self._socket],), name="assoc-hull page server"
-        )
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="assoc-hull page server")
         self._thread.start()
         return self
+
+    def _run(self) -> None:
+        assert self._server is not None
+        try:
+            self._server.run([self._socket])
+        finally:
+            self._ended.set()
+
+    def _take_address(self) -> tuple[int, str]:
+        """Take a port and a token, if possible those of a server of this file that was killed.
+
+        So a page that is still open comes back by itself.
+        """
+        before = self._kept.read()
+        if before is not None and self._port in (0, before[0]):
+            with contextlib.suppress(BadInputError):  # somebody else has the port by now
+                self._socket = _listen(before[0])
+                return before
+        self._socket = _listen(self._port)
+        return int(self._socket.getsockname()[1]), secrets.token_urlsafe(32)
 
     def __exit__(
         self,
@@ -151,14 +173,16 @@ class PageServer:
         self._thread.join()
         self._socket.close()
         self._session.close()
+        self._kept.forget()
         sys.setswitchinterval(self._switch)
 
     def wait(self, *, stay: bool = False) -> None:
         """Wait until the last page has been closed for a minute; for ever if `stay`."""
         assert self._thread is not None
         left = 0.0
-        while self._thread.is_alive():
-            self._thread.join(_LOOK_AGAIN)
+        # A join that Ctrl+C interrupts takes the thread for ended (Python 3.11), and `__exit__`
+        # would close the socket under it.
+        while not self._ended.wait(_LOOK_AGAIN):
             visited = self._visitors.ever and not self._visitors.now
             left = left + _LOOK_AGAIN if visited else 0.0
             if left >= _LEFT and not stay:

@@ -27,10 +27,11 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.shapes import joined
 from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError, StaleHullError
 from assoc_hull.hull.hull import Hull
+from assoc_hull.io.hull_file.saving import is_behind_file
 from assoc_hull.model.address import address
 from assoc_hull.model.objects import Point
 from assoc_hull.page.answers import describe_hydrostatics, describe_why
-from assoc_hull.page.describe import describe_net, describe_state
+from assoc_hull.page.describe import describe_net, describe_state, net_words
 from assoc_hull.page.fairing import describe_fairness, ghost_of_edits, ghost_of_window
 from assoc_hull.page.files import write_export
 from assoc_hull.page.messages import (
@@ -99,6 +100,7 @@ class _Gesture:
 _Job = tuple[Client, Message | None]
 _IDLE: _Job = None, None  # type: ignore[assignment]
 _LOOK_AGAIN = 0.2  # s
+_WATCH = 0.5  # s between two looks at what other processes have committed
 _FORGOTTEN = 30.0  # s without a move: another may take the hull from a view that has vanished
 
 
@@ -108,8 +110,8 @@ class Session:
     Parameters
     ----------
     hull : Hull
-        The hull. What others make of it in this process, as a cell of a notebook does, is shown as
-        soon as the worker is idle.
+        The hull. What others make of it, in this process as a cell of a notebook does, or in
+        another one by the hull file, is shown as soon as the worker is idle.
     """
 
     def __init__(self, hull: Hull) -> None:
@@ -125,6 +127,8 @@ class Session:
         self._newest = dict[tuple[Client, type[Message]], int]()
         self._opening = hull.snapshot()
         self._shown = hull.state_number
+        self._words = net_words(hull.state)
+        self._watched = time.monotonic()
         self._faults = 0
         self._worker = threading.Thread(target=self._work, name="assoc-hull page", daemon=True)
         self._worker.start()
@@ -174,6 +178,7 @@ class Session:
     def _work(self) -> None:
         while (job := self._next()) is not None:
             try:
+                self._watch_file()
                 self._show_others()
                 if job is not _IDLE:
                     self._do(*job)
@@ -197,6 +202,29 @@ class Session:
             if not self._open:
                 return None
             return self._jobs.popleft() if self._jobs else _IDLE
+
+    def _watch_file(self) -> None:
+        """Take over what another process has committed, unless a point is held.
+
+        Then it waits until the point is let go: a hull must not change under a hand.
+        """
+        now = time.monotonic()
+        if self._gesture is not None or now - self._watched < _WATCH:
+            return
+        self._watched = now
+        with contextlib.suppress(AssocHullError):  # the next edit says what is wrong with the file
+            if is_behind_file(self.hull.document):
+                known = len(self.hull.document.steps)
+                self.hull.refresh()
+                self._show_others()
+                self._tell_newest(known)
+
+    def _tell_newest(self, known: int) -> None:
+        """Tell everybody whose the newest edit is, if there are more than were known."""
+        made = [each for each in self.hull.document.history if each.number > known]
+        for each in self._clients if made else ():
+            report = made[-1].report
+            _send(each, {"t": "theirs", "author": report.author, **_figures(report)})
 
     def _show_others(self) -> None:
         """Show what others have made of the hull in this process since it was shown last."""
@@ -394,12 +422,7 @@ class Session:
             report = act()
         self._end_gesture()
         self._publish(before)
-        normal = report.largest_normal
-        told = {
-            "name": report.name, "relofted": len(report.relofted), "notes": list(report.notes),
-            "inflections": sum(n for _, n in report.inflections),
-            "normal": None if normal is None else normal.distance,
-        }  # fmt: skip
+        told = _figures(report)
         _send(client, {"t": "done", "id": number, "gesture": gesture, **told})
         for each in self._others(client):
             _send(each, {"t": "theirs", "author": client.author, **told})
@@ -541,7 +564,8 @@ class Session:
         """Tell everybody what has changed since a state."""
         number = self.hull.state_number
         changed, state = self.hull.since(before), self.hull.state
-        if changed.structural:
+        # A knuckle or another name is no structure, but stands in the net that pages know.
+        if changed.structural or net_words(state) != self._words:
             self._tell_net(self._clients)
             self._shown = number
             return
@@ -562,6 +586,7 @@ class Session:
         text = _text(describe_net(state))
         frame = pack(Frame(FrameKind.NET, state.number, shapes.curves, shapes.spline, rows,
                            state.rows.xyz[rows], structural=True))  # fmt: skip
+        self._words = net_words(state)
         for client in clients:
             client.tell(text)
         self._tell_all(clients, frame)
@@ -577,6 +602,16 @@ class Session:
         Parameters: _parameters, Vary: _vary, Steps: _steps, Go: _go, Compare: _compare,
         Checkpoint: _checkpoint, Why: _why, Hydrostatics: _hydrostatics,
         Fairness: _fairness, Window: _window, Preview: _preview, Export: _export,
+    }  # fmt: skip
+
+
+def _figures(report: EditReport) -> dict[str, Any]:
+    """Give what is told of an edit that was made."""
+    normal = report.largest_normal
+    return {
+        "name": report.name, "relofted": len(report.relofted), "notes": list(report.notes),
+        "inflections": sum(n for _, n in report.inflections),
+        "normal": None if normal is None else normal.distance,
     }  # fmt: skip
 
 

@@ -15,6 +15,7 @@ from assoc_hull.shipped.fair_designs import (
     fair_container_ship_design,
     fair_plain_ship_design,
 )
+from assoc_hull.shipped.yacht_design import draw_yacht, yacht_design
 
 __all__ = ["SHIP_TYPES", "ship_type"]
 
@@ -47,13 +48,17 @@ SHIP_TYPES: Mapping[str, ShipType] = MappingProxyType({
             _ratios((5.5, 7.5), (3.0, 4.5), (1.8, 2.6), (0.52, 0.68), (-4.0, -1.0)), -0.88,
             remark="a single skeg; no twin skeg is drawn",
         ),
+        ShipType(
+            "yacht canoe body", yacht_design, (8.0, 30.0),
+            _ratios((2.9, 4.2), (4.0, 8.0), (2.2, 5.0), (0.36, 0.43), (-6.0, -2.0)), -1.0,
+            draw=draw_yacht,
+        ),
     )
 })  # fmt: skip
 """By name."""
 
 _NOT_YET = {
     "trawler": "it needs a raked keel and a rise of floor, which no design here has",
-    "yacht canoe body": "it needs sections without flats and areas without a parallel part",
 }
 
 
@@ -63,7 +68,7 @@ def ship_type(name: str) -> ShipType:
     Raises UnknownNameError, or BadInputError for one that is not made well.
     """
     name = " ".join(name.lower().split())
-    name = next((each for each in _NOT_YET if name in each.split()), name)  # "yacht" is one, too
+    name = "yacht canoe body" if name in ("yacht", "canoe body") else name
     if name in _NOT_YET:
         known = ", ".join(SHIP_TYPES)
         raise BadInputError(

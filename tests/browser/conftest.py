@@ -145,8 +145,9 @@ def open_page(browser: Browser) -> Iterator[Open]:
     ends = list[Callable[[], None]]()
     said = list[str]()
 
-    def look(context: BrowserContext, server: PageServer, at: str) -> Page:
+    def look(context: BrowserContext, server: PageServer, at: str, before: str) -> Page:
         page = context.new_page()
+        page.add_init_script(before)
         page.set_default_timeout(30_000)
         page.on("console", lambda message: said.append(message.text))
         page.on("pageerror", lambda error: said.append(str(error)))
@@ -160,7 +161,7 @@ def open_page(browser: Browser) -> Iterator[Open]:
 
     def give(
         hull: ah.Hull | None = None, *, server: PageServer | None = None, author: str = "anna",
-        strict: bool = False, **looks: Any,
+        strict: bool = False, before: str = "", **looks: Any,
     ) -> Hand:  # fmt: skip
         if server is None:
             assert hull is not None
@@ -169,7 +170,7 @@ def open_page(browser: Browser) -> Iterator[Open]:
         usual = {"viewport": {"width": 1440, "height": 840}, "bypass_csp": not strict}
         context = browser.new_context(**{**usual, **looks})
         ends.append(context.close)
-        hand = Hand(look(context, server, server.address.partition("#")[0]), server)
+        hand = Hand(look(context, server, server.address.partition("#")[0], before), server)
         if not strict:
             hand.settled()
         return hand

@@ -8,29 +8,51 @@ import assoc_hull as ah
 from tests.browser.conftest import Open
 from tests.browser.test_panels import opened
 
-BEGINS = {"pdf": b"%PDF", "svg": b"<?xml", "dxf": b"", "csv": b"", "xlsx": b"PK"}
+BEGINS = {
+    "pdf": b"%PDF", "svg": b"<?xml", "dxf": b"", "csv": b"", "xlsx": b"PK", "hull.json": b"{",
+    "stl": b"",
+}  # fmt: skip
+SAME = ("dxf", "csv", "hull.json")
 
 
-@pytest.mark.parametrize("form", BEGINS)
-def test_a_file_is_handed_over_as_a_download(
-    open_page: Open, hull: ah.Hull, tmp_path: Path, form: str
-) -> None:
-    """It is that of the library, named by the ship, and the hull stays as it is."""
+def test_files_are_handed_over_as_downloads(open_page: Open, hull: ah.Hull, tmp_path: Path) -> None:
+    """They are those of the library, named by the ship, and the hull stays as it is."""
     hand, before = open_page(hull), hull.fingerprint
     box = opened(hand, "Export")
-    box.locator("select").select_option(form)
-    with hand.page.expect_download() as download:
-        box.get_by_text("Write the file").click()
-    assert download.value.suggested_filename == f"Series-60-CB-0.70.{form}"
-    target = tmp_path / f"found.{form}"
-    download.value.save_as(target)
-    assert target.read_bytes().startswith(BEGINS[form])
-    assert f"Series-60-CB-0.70.{form}" in box.inner_text()
-    if form in ("dxf", "csv"):
-        hull.export(tmp_path / f"Series-60-CB-0.70.{form}")
-        own = (tmp_path / f"Series-60-CB-0.70.{form}").read_bytes()
-        assert target.read_bytes() == own
+    for form, begins in BEGINS.items():
+        box.locator("select").select_option(form)
+        with hand.page.expect_download() as download:
+            box.get_by_text("Write the file").click()
+        name = f"Series-60-CB-0.70.{form}"
+        assert download.value.suggested_filename == name
+        target = tmp_path / f"found.{form}"
+        download.value.save_as(target)
+        assert target.stat().st_size > 1000
+        assert target.read_bytes().startswith(begins)
+        assert name in box.inner_text()
+        if form in SAME:
+            hull.export(tmp_path / name)
+            assert target.read_bytes() == (tmp_path / name).read_bytes()
     assert hull.fingerprint == before
+
+
+def test_a_file_that_cannot_be_written_is_told_in_a_sentence(
+    open_page: Open, hull: ah.Hull, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What is missing and how to have it; no file is handed over, and the next one is written."""
+
+    def missing(*_: object) -> None:
+        raise ah.errors.MissingExtraError("matplotlib", "plot")
+
+    hand = open_page(hull)
+    box = opened(hand, "Export")
+    with monkeypatch.context() as patch:
+        patch.setattr("assoc_hull.page.session.write_export", missing)
+        box.get_by_text("Write the file").click()
+        box.get_by_text("assoc-hull[plot]").wait_for()
+    box.locator("select").select_option("csv")
+    with hand.page.expect_download():
+        box.get_by_text("Write the file").click()
 
 
 def test_a_second_window_shows_the_edits_of_the_other_under_its_name(

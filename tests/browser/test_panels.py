@@ -53,6 +53,33 @@ def test_the_history_goes_back_and_compares(open_page: Open, hull: ah.Hull) -> N
     assert hull.labels["fuller"].author == "anna"
 
 
+def test_an_edit_made_after_an_undo_leaves_a_branch(open_page: Open, hull: ah.Hull) -> None:
+    """What was left stands in the list, is compared with, and is gone back to, to the bit."""
+    hand = open_page(hull)
+    box = opened(hand, "History")
+    pull(hand, 0.02)
+    left = hull.fingerprint
+    hand.page.keyboard.press("Control+z")
+    hand.until("p => p.store.history.edits === 0")
+    hand.ask("(p, name) => p.apply('the other way', [{op: 'pull', point: name, d: -0.02}])", POINT)
+    hand.until("p => p.store.history.edits === 1")
+    now = hull.fingerprint
+    branch = box.locator("li", has_text="on a branch from step 0")
+    branch.get_by_label("compare with pull by hand").click()
+    box.get_by_text("Dashed: the hull as it was then").wait_for()
+    assert hull.fingerprint == now
+    branch.get_by_role("button", name="pull by hand", exact=True).click()
+    hand.until("p => p.store.history.redo === null && p.store.history.undo === 'pull by hand'")
+    hand.settled()
+    assert hull.fingerprint == left
+    assert hand.shows_what_is_published()
+    box.locator("li", has_text="on a branch").get_by_role(
+        "button", name="the other way", exact=True
+    ).click()
+    hand.until("p => p.store.history.undo === 'the other way'")
+    assert hull.fingerprint == now
+
+
 def test_going_back_over_edits_of_others_is_refused_in_the_history(
     open_page: Open, hull: ah.Hull
 ) -> None:
@@ -101,6 +128,28 @@ def test_a_hull_that_is_sound_is_said_to_be(open_page: Open, hull: ah.Hull) -> N
     box = opened(hand, "Problems")
     box.get_by_text("Check the hull").click()
     box.get_by_text("Nothing is wrong.").wait_for()
+
+
+def test_what_was_refused_last_stands_among_the_problems(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """Also when its bubble has gone; counted in the heading, a click goes there, an edit ends it."""
+    hand = open_page(hull)
+    box = opened(hand, "Problems")
+    hand.ask("(p, name) => p.find(name)", POINT)
+    hand.ask("(p, name) => p.apply('far', [{op: 'move', point: name, y: 400}])", POINT)
+    hand.page.wait_for_selector(".bubble")
+    hand.page.keyboard.press("Escape")
+    hand.page.wait_for_selector(".bubble", state="detached")
+    reason = box.locator("button.link").first
+    assert box.locator("summary").inner_text().split() == ["Problems", "1"]
+    hand.page.keyboard.press("Escape")
+    assert hand.ask("p => p.store.selection.row") is None
+    reason.click()
+    assert hand.ask("p => p.store.net.points.get(p.store.selection.row).name") == POINT
+    pull(hand, 0.01)
+    reason.wait_for(state="detached")
+    assert box.locator("summary").inner_text().split() == ["Problems"]
 
 
 def test_a_click_on_a_problem_goes_to_its_place(open_page: Open) -> None:

@@ -17,7 +17,11 @@ def test_a_variant_is_a_ghost_until_it_is_applied(open_page: Open, hull: ah.Hull
     field.fill(f"{hull.particulars.breadth + 0.2:.3f}")
     field.press("Enter")
     words.get_by_text("Nothing is changed yet").wait_for()
-    assert page.evaluate("document.querySelector('.page').fairing.store.ghost.curves.size") > 20
+    ghost = page.evaluate(
+        "[...document.querySelector('.page').fairing.store.ghost.curves].map(([id, c]) => [id,"
+        " [...c.xyz]])"
+    )
+    assert len(ghost) > 20
     assert hull.fingerprint == before
     page.evaluate("document.querySelector('.page').fairing.views.body.upper.focus()")
     page.keyboard.press("Escape")
@@ -32,3 +36,6 @@ def test_a_variant_is_a_ghost_until_it_is_applied(open_page: Open, hull: ah.Hull
     words.get_by_text("can be varied").wait_for()
     assert abs(hull.particulars.breadth - wanted) < 1e-6
     assert [step.author for step in hull.history] == ["anna"]
+    for number, flat in ghost:  # what was shown is what was made, to the bit
+        assert flat == hull.state.spline(number).xyz.ravel().tolist()
+    assert f"B {wanted:.2f}" in page.locator(".dims").inner_text()

@@ -137,3 +137,15 @@ def test_a_touch_that_stays_is_the_same_crossing(touched: ah.Hull) -> None:
         assert min(point.x for point in buttock if point.z < 8.0) > 9.0
         assert not any(point.kind == "knuckle" for point in buttock)
         assert touched.verify() == ()
+
+
+def test_an_end_that_grows_over_its_touch_ends_two_branches(touched: ah.Hull) -> None:
+    """The plane of the buttock meets the circle twice then; one knuckle would be wrong."""
+    with taken_back(touched):
+        varied(touched, (6.0, 6.0), (1.0, 1.2))
+        ends = [point for point in touched.lines["BTK 1"].points if "bossing end" in point.name]
+        away = np.sqrt(1.2**2 - 1.0)
+        heights = sorted(point.z for point in ends)
+        assert heights == pytest.approx([6.0 - away, 6.0 + away], abs=1e-6)
+        assert not any(point.kind == "knuckle" for point in ends)
+        assert len(touched.lines["BTK 1"].curves) == 2

@@ -99,6 +99,17 @@ __all__ = [
 _SAMPLES = 8
 """Points on each segment among which the lowest of the hull is looked for."""
 
+_STEEP = float(np.tan(np.radians(80.0)))
+"""Beyond this tangent of the heel the surface is integrated on more curves.
+
+Curves of end strips lean along the ship, so that fluxes balance over the strip and not on each
+curve: the tangent of the heel multiplies what the rule along it misses. On the trawler of the tests
+KN at 90 degrees was .23 m off.
+"""
+
+_STEEP_ORDER = 16
+"""By this factor: KN of that trawler at 90 degrees is within .5 mm of that by twice as many."""
+
 
 @attrs.frozen(eq=False)
 class Flotation:
@@ -146,6 +157,11 @@ class Flotation:
     def prepared(self) -> PreparedStrips:
         """The surface with its integrals."""
         return prepare_strips(self.strips)
+
+    @cached_property
+    def _steep(self) -> PreparedStrips:
+        """The surface with so many curves that the end strips hold at steep heels."""
+        return prepare_strips(self.strips, _STEEP_ORDER)
 
     @cached_property
     def spans(self) -> StripSpans:
@@ -207,6 +223,20 @@ class Flotation:
         return found
 
     def _integrated(self, planes: FloatingPlanes) -> ImmersedIntegrals:
+        steep = np.abs(planes.tan_heel) > _STEEP
+        if not steep.any():
+            return self._integrated_plainly(planes)
+        found = integrate_immersed(self._steep, _some(planes, steep))
+        if steep.all():
+            return found
+        plain = self._integrated_plainly(_some(planes, ~steep))
+        whole = {}
+        for name, value in attrs.asdict(plain, recurse=False).items():
+            whole[name] = np.empty(len(steep))
+            whole[name][~steep], whole[name][steep] = value, getattr(found, name)
+        return ImmersedIntegrals(**whole)
+
+    def _integrated_plainly(self, planes: FloatingPlanes) -> ImmersedIntegrals:
         # Which arithmetic it is must not depend on when one asks: they differ by rounding.
         rows = self.surface.rows if backend() == "numba" else None
         if rows is None:
@@ -365,6 +395,10 @@ def _bends(batch: SplineBatch) -> FloatArray:
         found.append((2.0 * (1 + near) * one - 2.0 * (1 + far) * other) / length)
     found[1] = -found[1]
     return np.stack(found, axis=1)
+
+
+def _some(planes: FloatingPlanes, some: NDArray[np.bool_]) -> FloatingPlanes:
+    return FloatingPlanes(*(each[some] for each in attrs.astuple(planes)))
 
 
 def _key(planes: FloatingPlanes) -> bytes:

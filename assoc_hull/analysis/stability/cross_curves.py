@@ -25,7 +25,7 @@ from assoc_hull.analysis.stability.condition import (
     doubts_of,
     heels_of,
 )
-from assoc_hull.analysis.stability.righting_lever import TrimRule, float_at_heels
+from assoc_hull.analysis.stability.righting_lever import TrimRule, float_at_heels, rough_levers
 from assoc_hull.arguments import choice, number
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
@@ -143,6 +143,7 @@ def cross_curves_of(
     notes = [f"the deck is {deck}"]
     if deck == "open" and np.isnan(kn).any():
         notes[0] += ": where its edge would be under water there is no KN"
+    notes += rough_levers(found)
     return CrossCurves(header, trim, tuple(conditions), heels, kn.copy(), tuple(notes))
 
 

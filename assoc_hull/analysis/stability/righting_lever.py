@@ -31,6 +31,7 @@ __all__ = [
     "TrimRule",
     "float_at_heels",
     "levers_of",
+    "rough_levers",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -141,6 +142,11 @@ FREE_MOST = 85.0
 _KNOTS = np.array([89.0, 89.25, 89.5, 89.75])
 """Degrees: at fixed trim, heels beyond the last are read from a cubic through these."""
 
+_NOISE = 6.0
+"""What grows as the tangent squared is 5.6 times larger at 90 degrees than its third difference."""
+
+_TOLD = 1e-3  # m: doubts of less are not told
+
 
 @attrs.frozen(eq=False)
 class HeeledShip:
@@ -162,6 +168,8 @@ class HeeledShip:
         Of the water, upward.
     distance : (d,), m
         Of the water from the origin, along the normal.
+    doubt : (d,), m
+        How far a lever that is read from a cubic may be off; 0 where it is computed.
     """
 
     heel_deg: FloatArray
@@ -173,6 +181,7 @@ class HeeledShip:
     energy: FloatArray
     normal: FloatArray
     distance: FloatArray
+    doubt: FloatArray
 
     def __attrs_post_init__(self) -> None:
         freeze(*attrs.astuple(self, recurse=False))
@@ -226,7 +235,23 @@ def _extended(found: HeeledShip, heel_deg: FloatArray, steep: NDArray[np.bool_])
     fix = {"heel_deg": heel_deg.copy()}
     for name in ("mean", "slope"):
         fix[name] = np.where(steep, np.nan, getattr(whole, name))
+    fix["doubt"] = np.zeros(len(heel_deg))
+    # Levers bend too little within a degree to show a third difference: what there is, is noise.
+    noise = np.abs(np.diff(found.kn[plain:].reshape(-1, len(_KNOTS)), n=3, axis=1)[:, 0])
+    fix["doubt"][steep] = _NOISE * noise
     return attrs.evolve(whole, **fix)
+
+
+def rough_levers(heels: HeeledShip) -> list[str]:
+    """Say which levers are known roughly only, and how roughly; nothing where all are smooth."""
+    rough = np.flatnonzero(heels.doubt > _TOLD)
+    if not len(rough):
+        return []
+    angles = ", ".join(f"{each:g}" for each in np.unique(heels.heel_deg[rough]).tolist())
+    return [
+        f"KN and GZ at {angles} deg are known to +-{1e3 * float(heels.doubt[rough].max()):.2g} mm "
+        "only: levers from 89 deg on do not run smoothly, as happens where lines are few"
+    ]
 
 
 def _lagrange(place: FloatArray) -> FloatArray:
@@ -267,7 +292,10 @@ def _direct(
         full.append(spread)
     afloat = np.isfinite(full[0])
     mean, slope = np.where(afloat, mean, np.nan), np.where(afloat, slope, np.nan)
-    return HeeledShip(heel_deg.copy(), mean, slope, *full)
+    kn, gz, growth, energy, normal, distance = full
+    return HeeledShip(
+        heel_deg.copy(), mean, slope, kn, gz, growth, energy, normal, distance, np.zeros(len(heel))
+    )
 
 
 def _start(heel_deg: FloatArray, near: HeeledShip) -> tuple[FloatArray, FloatArray]:

@@ -48,6 +48,7 @@ from assoc_hull.analysis.stability.righting_lever import (
     StabilityCase,
     TrimRule,
     float_at_heels,
+    rough_levers,
 )
 from assoc_hull.arguments import all_of, choice, number
 from assoc_hull.display import ShownAsText
@@ -284,7 +285,8 @@ def stability_notes(
     if case.trim == "fixed":
         notes.append("trim is fixed: levers are those of the plane with the draughts' difference")
     notes.append("the weather criterion (2008 IS Code A 2.3) is not evaluated")
-    return (*notes, *_other_side(at, side), *_missing(at, case, limit), *_beside(at, case))
+    notes += [*_other_side(at, side), *_missing(at, case, limit), *_beside(at, case)]
+    return (*notes, *rough_levers(at))
 
 
 def _other_side(at: HeeledShip, side: int) -> list[str]:

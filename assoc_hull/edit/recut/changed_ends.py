@@ -77,12 +77,19 @@ def aligned_pairs(
 
 
 def double_root_crossings(state: HullState, curve: int, line: int) -> set[int]:
-    """Give the crossings at double roots: they have no intersection of the curve with the plane.
+    """Give the crossings at double roots: the curve does not pass through the plane there.
 
-    An intersection of sign 0 is none of these: a line may end squarely on it.
+    An intersection of sign 0 is none of these: a line may end squarely on it. Rounding may make two
+    of a double root, to and fro, and attach the crossing to one of them.
     """
     meets: CurveIntersections = state.curves.meets[curve]
-    return set(tangency_rows(state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
+    passed = (meets.line == line) & (meets.sign != 0)
+    double = set[int]()
+    for row in tangency_rows(state, curve, line):
+        here = passed & ~without_double_roots(state, meets.xyz, state.rows.xyz[row])
+        if row not in meets.row[passed] or (here.any() and not meets.sign[here].sum()):
+            double.add(row)
+    return double
 
 
 def has_changed_ends(

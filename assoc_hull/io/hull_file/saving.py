@@ -81,6 +81,7 @@ __all__ = [
     "detach_hull",
     "file_damages",
     "holds_hull",
+    "is_behind_file",
     "open_document",
     "open_hull_file",
     "path_of",
@@ -390,6 +391,11 @@ def refresh_hull(document: Document) -> None:
     document.require_ended("refresh")
     with document.held("refresh", keep=False):
         document.keeper.refresh(document)
+
+
+def is_behind_file(document: Document) -> bool:
+    """Tell whether another process has committed to the hull file since; False in memory."""
+    return isinstance(document.keeper, HullFile) and document.keeper.is_behind()
 
 
 def detach_hull(document: Document) -> None:

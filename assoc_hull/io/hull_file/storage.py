@@ -645,6 +645,10 @@ class HullFile:
                 self._opened.pop().close()
         return self._opened[-1]
 
+    def is_behind(self) -> bool:
+        """Tell whether another process has committed since; nobody is waited for."""
+        return self._open and bool(self._read("SELECT 1 FROM hull WHERE serial != ?", self.serial))
+
     def follow(self, document: Document) -> tuple[int, int]:
         """Tell a document of steps and names it does not know; give where the file stands.
 

@@ -1,6 +1,8 @@
 // The table of all actions: what they are called, by which keys, whether they can be done now.
 // Buttons, keys and the sheet of keys read it.
 
+import {passes, pin, remove} from "./point_acts.js";
+
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {{id: string, words: string, keys: string[], label?: (page: Page) => string, pressed?: (page: Page) => boolean, enabled?: (page: Page) => boolean, run: (page: Page) => void}} Action */
 
@@ -41,6 +43,11 @@ export const ACTIONS = [
   {id: "fair-pull", words: "Answer pulls fairly: shown before it is made", keys: ["j"], label: () => "Answer fairly", pressed: (page) => page.store.tools.fair, run: (page) => page.toggleTool("fair")},
   {id: "pinned", words: "Pinned: placed points move alone, their line is not led", keys: ["l"], label: () => "Pinned", pressed: (page) => page.store.tools.pinned, run: (page) => page.toggleTool("pinned")},
   {id: "insert", words: "Insert a point into the chosen line, by a click", keys: ["i"], label: () => "Insert a point", enabled: (page) => page.store.selection.curve !== null, run: (page) => page.insert()},
+  {id: "knuckle", words: "Knuckle: the chosen line bends at the point", keys: ["n"], label: () => "Knuckle", ...passes("knuckle")},
+  {id: "smooth", words: "Smooth: the chosen line passes the point without a bend", keys: ["Shift+n"], label: () => "Smooth", ...passes("smooth")},
+  {id: "tangent", words: "Tangent: the chosen line keeps its direction at the point", keys: ["Shift+t"], label: () => "Tangent", ...passes("tangent")},
+  {id: "pin", words: "Pin the chosen point: no edit of others moves it; or unpin it", keys: ["Shift+l"], label: () => "Pin", ...pin},
+  {id: "delete", words: "Delete the chosen point of a line", keys: ["Delete"], label: () => "Delete", ...remove},
   {id: "reshape", words: "Re-shape the chosen line through places that you click", keys: ["r"], label: () => "Re-shape", enabled: (page) => page.store.selection.curve !== null, run: (page) => page.shaper.start()},
   {id: "fair-shape", words: "Answer re-shapes fairly", keys: ["Shift+r"], label: () => "Fair re-shapes", pressed: (page) => page.store.tools.fairShapes, run: (page) => page.toggleTool("fairShapes")},
   {id: "undo", words: "Undo your last edit", keys: ["Ctrl+z"], label: () => "Undo", enabled: (page) => page.hand.free && page.store.history.undo !== null, run: (page) => page.undo()},
@@ -77,6 +84,10 @@ export const ACTIONS = [
   {id: "hydrostatics", words: "Hydrostatics and sectional areas", keys: ["y"], run: (page) => page.panel.open("Hydrostatics")},
   {id: "fairing", words: "Fairing: the waviest lines, a window", keys: ["Shift+f"], run: (page) => page.panel.open("Fair")},
   {id: "export", words: "Write a lines plan, offsets, a drawing", keys: ["x"], run: (page) => page.panel.open("Export")},
+  {id: "print", words: "Lines plan to be printed, as PDF", keys: ["Shift+x"], run: (page) => {
+    page.panel.open("Export");
+    page.panel.files.write("pdf");
+  }},
   {id: "theme", words: "Light, dark, or as the system", keys: ["t"], label: () => "Theme", run: (page) => page.nextTheme()},
   {id: "palette", words: "All that can be done, by its words", keys: ["Ctrl+k", ":"], run: (page) => page.palette()},
   {id: "keys", words: "All keys", keys: ["?"], label: () => "Keys", run: (page) => page.sheet()},

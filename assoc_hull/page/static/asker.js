@@ -67,6 +67,12 @@ export class Asker {
     this.timer = setTimeout(load, PAUSE);
   }
 
+  /** The server has gone: nothing is answered any more, and another may not be at the same state. */
+  lost() {
+    this.asked = 0;
+    this.key = this.words.textContent = "";
+  }
+
   /** The ghost was taken away, by Esc or by another. */
   dropped() { this.words.textContent = ""; }
 

@@ -65,7 +65,12 @@ export function makeBar(page) {
   dialog.setAttribute("aria-label", "Keys");
   page.root.append(dialog);
   return {
-    element, search,
+    element,
+    /** What was looked for before goes with the first letter. */
+    look() {
+      search.focus();
+      search.select();
+    },
     /** @param {import("./net.js").Particulars} ship @param {number} lines @param {number} points */
     name(ship, lines, points) {
       title.textContent = ship.name;

@@ -9,15 +9,21 @@ export class Files extends Asker {
   /** @param {import("./page.js").Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
-    const choice = document.createElement("select"), form = document.createElement("div");
+    const choice = this.choice = document.createElement("select"), form = document.createElement("div");
     choice.setAttribute("aria-label", "form of the file");
     choice.replaceChildren(...FORMS.map(([value, words]) => new Option(words, value)));
     form.className = "form";
-    form.append(choice, button("Write the file", () => this.ask({t: "export", form: choice.value}, "Writing; a surface takes some seconds …")));
+    form.append(choice, button("Write the file", () => this.write(choice.value)));
     box.append(form, this.words);
   }
 
   render() {}
+
+  /** @param {string} form */
+  write(form) {
+    this.choice.value = form;
+    this.ask({t: "export", form}, "Writing; a surface takes some seconds …");
+  }
 
   /** @param {{id: number, value: any}} message */
   answer(message) {

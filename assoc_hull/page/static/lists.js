@@ -1,6 +1,6 @@
 // Two lists in the panel: the points of the chosen curve, and what is wrong with the hull.
 
-import {link} from "./asker.js";
+import {link, paragraph} from "./asker.js";
 
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {{kind: string, object: string, place: number[] | null, text: string}} Finding */
@@ -83,8 +83,14 @@ export class Problems {
     box.append(button, this.list);
     this.asked = 0;
     this.state = -1;
+    this.shown = "";
     /** @type {Finding[] | null} */
     this.found = null;
+    /** What was refused last; its bubble goes with the next press, this stays until an edit is made. @type {import("./store.js").Refusal | null} */
+    this.refusal = null;
+    this.count = document.createElement("span");
+    this.count.className = "count";
+    box.closest("details")?.querySelector("summary")?.append(this.count);
   }
 
   ask() { this.asked = this.page.request({t: "check"}); }
@@ -98,8 +104,11 @@ export class Problems {
     this.render();
   }
 
+  /** The server has gone: what was found is of another session. */
+  lost() { this.asked = this.state = -1; }
+
   /** @param {any} _message */
-  done(_message) {}
+  done(_message) { this.refusal = null; }
 
   /** @param {any} _message */
   refused(_message) { return false; }
@@ -113,9 +122,15 @@ export class Problems {
   }
 
   render() {
-    if (!this.found) return;
-    const old = this.state !== this.page.store.state, words = document.createElement("p");
-    words.textContent = `${this.#words()}${old ? " That was before the last edit." : ""}`;
-    this.list.replaceChildren(words, ...this.found.slice(0, 100).map((finding) => link(finding.text, () => this.page.goTo(finding.object, finding.place))));
+    const {store} = this.page, old = this.state !== store.state, found = /** @type {Finding[]} */ (this.found ?? []), refused = this.refusal = store.refusal ?? this.refusal;
+    const n = found.length + (refused ? 1 : 0), key = `${n} ${old} ${this.state} ${refused?.text}`;
+    if (key === this.shown) return; // what has the focus is not drawn anew under it
+    this.shown = key;
+    this.count.textContent = n ? ` ${n}` : "";
+    const words = this.found ? [paragraph(`${this.#words()}${old ? " That was before the last edit." : ""}`)] : [];
+    const rows = found.slice(0, 100).map((finding) => link(finding.text, () => this.page.goTo(finding.object, finding.place)));
+    const name = refused?.row == null ? "" : store.net?.points.get(refused.row)?.name ?? "", first = refused?.text.split("\n")[0] ?? "";
+    const last = refused ? [paragraph("Refused last:"), name ? link(first, () => this.page.goTo(name, refused.place)) : paragraph(first)] : [];
+    this.list.replaceChildren(...words, ...rows, ...last);
   }
 }

@@ -89,6 +89,8 @@ export class Page {
     signal?.addEventListener("abort", () => sizes.disconnect());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.dress(), {signal});
     addEventListener("blur", () => this.letGo(), {signal});
+    // Paper is light, whatever the screen is, and does not wait for a frame.
+    for (const when of ["beforeprint", "afterprint"]) addEventListener(when, () => { this.dress(); this.#frame(); }, {signal});
     this.link = options.connect({
       open: () => this.link.send({t: "hello", version: VERSION, token: options.token, author: this.store.author}),
       text: (text) => this.#told(JSON.parse(text)),
@@ -189,6 +191,8 @@ export class Page {
   #lost(how, reason) {
     this.letGo();
     this.hand.drop();
+    this.dropGhost();
+    for (const each of this.panel.askers) each.lost();
     this.store.theirs = null;
     this.store.connection = how;
     this.store.reason = reason;
@@ -447,7 +451,7 @@ export class Page {
     this.say(`${object} at (${[...at].map((each) => each.toFixed(3)).join(", ")}) m`);
   }
 
-  search() { this.bar.search.focus(); }
+  search() { this.bar.look(); }
 
   /** @param {string} name */
   find(name) {

@@ -15,6 +15,7 @@ import {Proposal} from "./propose.js";
 import {Vary} from "./vary.js";
 import {WhyPanel} from "./why.js";
 import {CROSSING} from "./net.js";
+import {roleChoice} from "./point_acts.js";
 import {millimetres, signed} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
@@ -51,21 +52,31 @@ export class Panel {
     this.past = new Past(page, this.parts.History);
     this.numbers = new Numbers(page, this.parts.Hydrostatics);
     this.fair = new Fairing(page, this.parts.Fair);
+    this.files = new Files(page, this.parts.Export);
     /** All that ask the server: an answer is for one of them. */
-    this.askers = [this.proposal, this.why, this.past, this.numbers, this.fair, this.vary, this.problems, new Files(page, this.parts.Export)];
+    this.askers = [this.proposal, this.why, this.past, this.numbers, this.fair, this.vary, this.problems, this.files];
     this.beside = new Beside(page, this.parts.Beside);
     this.radii = [0, 1].map((i) => this.#radius(i));
-    this.switches = ["fair-pull", "pinned", "insert", "reshape", "fair-shape"].map((id) => {
-      const action = /** @type {import("./actions.js").Action} */ (ACTIONS.find((each) => each.id === id)), found = button(action.label?.(page) ?? "", () => action.run(page));
+    const made = this.#switches(["fair-pull", "pinned", "insert", "reshape", "fair-shape"]), ofPoint = this.#switches(["knuckle", "smooth", "tangent", "pin", "delete"]);
+    this.switches = [...made, ...ofPoint];
+    this.pointForm = document.createElement("div");
+    this.pointForm.className = "form";
+    this.pointForm.append(...ofPoint.map(({found}) => found));
+    this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
+    const form = document.createElement("div");
+    form.className = "form";
+    form.append(...made.map(({found}) => found));
+    this.parts.Pull.append(form);
+  }
+
+  /** Buttons of actions. @param {string[]} ids */
+  #switches(ids) {
+    return ids.map((id) => {
+      const action = /** @type {import("./actions.js").Action} */ (ACTIONS.find((each) => each.id === id)), found = button(action.label?.(this.page) ?? "", () => action.run(this.page));
       found.dataset.action = id;
       found.title = `${action.words} (${action.keys.map(keyWords).join(", ")})`;
       return {action, found};
     });
-    this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
-    const form = document.createElement("div");
-    form.className = "form";
-    form.append(...this.switches.map(({found}) => found));
-    this.parts.Pull.append(form);
   }
 
   /** @param {number} i */
@@ -160,6 +171,9 @@ export class Panel {
       ...AXES.map((name, i) => /** @type {[string, Node]} */ ([`${name}, m`, this.fields[i]])),
       ["moved", moved],
     ]);
+    this.pointForm.querySelector("select")?.remove();
+    if (point.sort === CROSSING) this.pointForm.append(roleChoice(this.page, point));
+    box.append(this.pointForm);
     this.shownRow = row;
     this.shownState = store.state;
   }

@@ -56,6 +56,11 @@ export class Proposal extends Asker {
     this.page.store.changed("panel");
   }
 
+  lost() {
+    super.lost();
+    this.dropped();
+  }
+
   /** @param {{id: number, value: Cost}} message */
   answer(message) {
     if (message.id !== this.asked || !this.what) return;

@@ -86,14 +86,17 @@ export class Store {
 
   /** Takes over a whole net with its shapes. @param {Net} net @param {Frame} frame */
   adopt(net, frame) {
-    const kept = {point: this.selection.row === null ? null : this.net?.points.get(this.selection.row)?.name ?? null,
+    const old = this.selection.row, known = old === null ? undefined : this.net?.points.get(old), kept = {
+      on: known && this.net?.curveName(known.a),
       curve: this.selection.curve === null ? null : this.net?.curveName(this.selection.curve) ?? null};
     this.net = net;
     this.curves = frame.curves;
     this.places = frame.places;
     this.state = frame.state;
     this.overlay = this.ghost = this.theirs = null;
-    const row = kept.point === null ? null : net.find(kept.point);
+    // A point that was pinned has another name, and is the same row.
+    const same = old === null ? undefined : net.points.get(old);
+    const row = !known ? null : net.find(known.name) ?? (same && net.curveName(same.a) === kept.on ? old : null);
     const curve = [...net.curves].find(([, {name}]) => name === kept.curve)?.[0] ?? null;
     this.inserting = this.shaping = null;
     this.selection = {row, curve};

@@ -11,6 +11,7 @@ export function readInk(root) {
 
 /** Which of the two is shown. @param {string} wish */
 export function themeOf(wish) {
+  if (matchMedia("print").matches) return "light";
   if (wish !== "auto") return wish;
   return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 }

@@ -87,6 +87,12 @@ export class Vary {
 
   render() {}
 
+  /** The server has gone: nothing is answered any more. */
+  lost() {
+    this.asked = 0;
+    this.words.textContent = "";
+  }
+
   /** @param {{id: number, reasons: string[]}} message */
   refused(message) { return this.problem({id: message.id, text: message.reasons.join("\n")}); }
 

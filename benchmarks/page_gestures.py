@@ -1,0 +1,550 @@
+"""The page for long: random gestures of two windows and a process, and a server that is killed.
+
+``python -m benchmarks.page_gestures --minutes 30 --hull dtc`` serves a hull file in a process of
+its own and lets two people in a browser drag, pull, type, undo, look back, fair, vary and bend
+lines at random, while a third process commits to the file. Then the browser must have said nothing
+on its console, both windows must show the file to the bit, the memory of page and server must not
+grow, and in the end `verify` finds nothing and all is undone to the bit.
+
+``--kills 100`` kills the server (SIGKILL) in the middle of gestures and starts it again: what was
+told as made must be in the file, and the page must come back by itself. Needs the browser that
+`make test-page` needs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import attrs
+import numpy as np
+from playwright.sync_api import Browser, Error, Page, sync_playwright
+
+import assoc_hull as ah
+from tests.browser.conftest import NAMES, READY, Hand
+from tests.cases.dtc import read_dtc_with_report
+
+__all__ = ["main"]
+
+HULLS: dict[str, Callable[[], ah.Hull]] = {
+    "series60": ah.examples.series60,
+    "carrier": ah.examples.bulk_carrier_207k,
+    "dtc": lambda: read_dtc_with_report(Path(os.environ["ASSOC_HULL_DATA"]))[0],
+}
+SAMPLES = 12
+"""So often is the memory looked at on the way."""
+
+WARM = 0.25
+"""Part of the time after which memory is not to grow any more."""
+
+COMMITTER = """
+import sys
+import assoc_hull as ah
+hull = ah.open(sys.argv[1])
+hull.author = "carla"
+print("ready", flush=True)
+for line in sys.stdin:
+    name, _, far = line.rstrip("\\n").rpartition("|")
+    hull.refresh()
+    try:
+        hull.apply("elsewhere", [{"op": "pull", "point": name, "d": float(far), "radius": [9, 4]}])
+    except ah.errors.AssocHullError:
+        pass
+    print(len(hull.history), flush=True)
+"""
+
+
+@attrs.define
+class Server:
+    """A server in a process of its own."""
+
+    path: Path
+    run: subprocess.Popen[str]
+    address: str
+
+    @classmethod
+    def start(cls, path: Path) -> Server:
+        """Start one, and wait for its address."""
+        run = subprocess.Popen(
+            [sys.executable, "-m", "assoc_hull.cli", "page", str(path), "--no-browser", "--json",
+             "--stay", "--author", "anna"],
+            stdout=subprocess.PIPE, text=True,
+            env={**os.environ, "XDG_RUNTIME_DIR": str(path.parent / "run")},
+        )  # fmt: skip
+        assert run.stdout is not None
+        text = ""
+        while "}" not in text:
+            if not (line := run.stdout.readline()):
+                raise RuntimeError(f"the server ended with {run.wait()}")
+            text += line
+        return cls(path, run, json.loads(text)["address"])
+
+    def end(self, how: signal.Signals = signal.SIGINT) -> None:
+        """End it."""
+        self.run.send_signal(how)
+        self.run.communicate(timeout=60.0)
+
+    @property
+    def memory(self) -> float:
+        """What it holds of the machine's memory, MB."""
+        lines = Path(f"/proc/{self.run.pid}/status").read_text().splitlines()
+        (found,) = (line.split()[1] for line in lines if line.startswith("VmRSS"))
+        return int(found) / 1024.0
+
+
+@attrs.define(eq=False)
+class Window:
+    """Somebody at a window of the page, who does things at random."""
+
+    hand: Hand
+    author: str
+    rng: random.Random
+    said: list[str]
+    found: Counter[str] = attrs.field(factory=Counter)
+
+    @classmethod
+    def open(cls, browser: Browser, server: Server, author: str, rng: random.Random) -> Window:
+        """Open one."""
+        context = browser.new_context(viewport={"width": 1440, "height": 840}, bypass_csp=True)
+        page, said = context.new_page(), list[str]()
+        page.set_default_timeout(120_000)
+        page.on("console", lambda message: said.append(message.text))
+        page.on("pageerror", lambda error: said.append(str(error)))
+        page.goto(server.address)
+        page.wait_for_selector(READY)
+        found = cls(Hand(page, None), author, rng, said)  # type: ignore[arg-type]
+        found.hand.ask("(p, name) => p.sign(name)", author)
+        titles = ("History", "Fair", "Vary", "Hydrostatics", "Why")
+        for title in titles if author == "anna" else titles[:3]:
+            found.hand.ask("(p, title) => p.panel.open(title)", title)
+        found.box("Vary").get_by_text("List the parameters").click()
+        found.hand.until("p => p.panel.vary.found.length > 0")
+        return found
+
+    @property
+    def page(self) -> Page:
+        """The page of the browser."""
+        return self.hand.page
+
+    def box(self, title: str) -> Any:
+        """Give a part of the panel."""
+        return self.page.locator(f"details:has(h2:text-is('{title}'))")
+
+    @property
+    def heap(self) -> float:
+        """What the page's own objects hold, MB."""
+        session = self.page.context.new_cdp_session(self.page)
+        session.send("HeapProfiler.collectGarbage")
+        used = session.send("Runtime.getHeapUsage")["usedSize"]
+        session.detach()
+        return float(used) / 1e6
+
+    @property
+    def edits(self) -> int:
+        """How many edits the page says that the hull has."""
+        return int(self.hand.ask("p => p.store.history.edits"))
+
+    # ---- acts: each ends when its answer has come
+
+    def quiet(self) -> None:
+        """Wait until nothing is in hand and nothing is asked; then take messages away."""
+        self.hand.until(
+            "p => p.pending === 0 && p.hand.inFlight === 0 && !p.hand.committing"
+            " && !p.panel.askers.some(each => each.words?.textContent.trim().endsWith('…'))"
+        )
+        self.hand.ask(
+            "p => { const {store} = p; store.refusal = store.problem = null; p.shaper.stop();"
+            " store.inserting = null; p.dropGhost(); p.activeView().upper.focus(); }"
+        )
+        self.hand.settled()
+
+    def pick(self) -> tuple[str, str]:
+        """Give a point and a view that shows it."""
+        kind = self.rng.choice(["body", "body", "half", "profile"])
+        rows = self.hand.ask("(p, kind) => p.views[kind].rows().length", kind)
+        at = self.rng.randrange(rows)
+        name: str = self.hand.ask(
+            "(p, kind, at) => p.store.net.points.get(p.views[kind].rows()[at]).name", kind, at
+        )
+        return name, kind
+
+    def take(self, name: str, kind: str) -> tuple[float, float]:
+        """Take hold of a point; what cannot be taken hold of is refused by then."""
+        self.hand.near(name, kind, self.rng.choice([100.0, 400.0, 2000.0]))
+        x, y = self.hand.spot(name, kind)
+        self.page.mouse.move(x, y)
+        self.page.mouse.down()
+        self.page.mouse.move(x + 4.0, y)
+        self.hand.until("p => p.hand.gripped || p.store.refusal || !p.store.held")
+        return x + 4.0, y
+
+    def to(self, x: float, y: float) -> None:
+        """Move the hand on, and wait for what follows, if anything is in hand."""
+        self.page.mouse.move(x, y)
+        self.hand.until(
+            "p => p.pending === 0 && (!p.store.held || (p.hand.inFlight === 0 && !p.hand.wish))"
+        )
+
+    def drag(self, *, finish: bool = True) -> None:
+        """Drag a point, by a pull or alone, and let go or give up."""
+        alone = self.rng.random() < 0.3
+        if alone:
+            self.page.keyboard.down("Control")
+        x, y = self.take(*self.pick())
+        if alone:
+            self.page.keyboard.up("Control")
+        for _ in range(self.rng.randrange(1, 8)):
+            self.page.mouse.move(x + self.rng.gauss(0.0, 8.0), y + self.rng.gauss(0.0, 8.0))
+        self.to(x + self.rng.gauss(0.0, 5.0), y + self.rng.gauss(0.0, 5.0))
+        if not finish:
+            return
+        if self.rng.random() < 0.2:
+            self.page.keyboard.press("Escape")
+        self.page.mouse.up()
+        self.quiet()
+
+    def arrows(self) -> None:
+        """Nudge the chosen point by a burst of arrows."""
+        self.hand.ask("(p, name) => p.find(name)", self.pick()[0])
+        for _ in range(self.rng.randrange(1, 5)):
+            key = self.rng.choice(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"])
+            self.page.keyboard.press(self.rng.choice(["", "", "Alt+", "Shift+"]) + key)
+        self.page.keyboard.press("Enter")
+        self.quiet()
+
+    def table(self) -> None:
+        """Type a coordinate of a point."""
+        self.hand.ask("(p, name) => p.find(name)", self.pick()[0])
+        self.hand.settled()
+        field = self.page.get_by_label("y, m, from the centre plane")
+        if field.count() and field.is_editable():
+            field.fill(f"{float(field.input_value()) + self.rng.gauss(0.0, 0.01):.4f}")
+            field.press("Enter")
+            self.wait_for_answer()
+        self.quiet()
+
+    def wait_for_answer(self) -> None:
+        """Wait until the last request of the page is answered, however."""
+        self.hand.ask(
+            "p => { p.answered = 0; p.heard ??= (p.panel.askers.push({lost() {}, done() {},"
+            " render() {}, dropped() {}, refused: () => false, problem: () => false,"
+            " answer: m => { p.answered = m.id; }}), true); p.marker = p.request({t: 'steps'}); }"
+        )
+        self.hand.until("p => p.answered === p.marker")
+
+    def key(self, keys: str) -> None:
+        """Press a key of an action, and wait for its answer."""
+        self.hand.ask("p => p.activeView().upper.focus()")
+        self.page.keyboard.press(keys)
+        self.wait_for_answer()
+        self.quiet()
+
+    def undo(self) -> None:
+        """Take back one's own last edit, or make it again."""
+        self.key(self.rng.choice(["Control+z", "Control+z", "Control+z", "Control+y"]))
+
+    def look_back(self) -> None:
+        """Go to another step, compare with one, or give the present state a name."""
+        box = self.box("History")
+        box.locator("ol.steps li").first.wait_for()
+        which = self.rng.random()
+        if which < 0.2:
+            box.get_by_label("name of the present state").fill(f"s{self.rng.random():.9f}")
+            box.get_by_text("Keep under this name").click()
+        else:
+            # The nearest ones: a walk over hundreds of steps is another thing.
+            words = "compare with it" if which < 0.6 else None
+            found = box.locator("ol.steps li:nth-child(-n+8) button")
+            some = found.filter(has_text=words) if words else found.filter(has_not_text="compare")
+            if count := some.count():
+                # It may be drawn anew as it is clicked: then nothing is asked.
+                some.nth(self.rng.randrange(count)).evaluate("each => each.click()")
+        self.wait_for_answer()
+        self.quiet()
+
+    def fair(self) -> None:
+        """Look at a window faired; make it now and then."""
+        self.hand.ask("(p, name) => p.find(name)", self.pick()[0])
+        self.hand.settled()
+        box = self.box("Fair")
+        box.locator("input[type=range]").fill(str(self.rng.randrange(10, 60)))
+        self.hand.until("p => !p.panel.fair.words.textContent.endsWith('…')")
+        make = box.get_by_role("button", name="Apply")
+        if self.rng.random() < 0.5 and make.is_enabled():
+            make.click()
+            self.wait_for_answer()
+        self.quiet()
+
+    def vary(self) -> None:
+        """Look at a variant; make it now and then."""
+        box = self.box("Vary")
+        name, value = self.rng.choice(
+            self.hand.ask("p => p.panel.vary.found.map(each => [each.name, each.value])")
+        )
+        box.locator("select").select_option(name)
+        box.locator("input").fill(f"{value * (1.0 + self.rng.gauss(0.0, 0.004)):.4f}")
+        which = "Apply" if self.rng.random() < 0.3 else "Preview"
+        box.get_by_role("button", name=which).click()
+        self.hand.until("p => !p.panel.vary.words.textContent.endsWith('…')")
+        self.wait_for_answer()
+        self.quiet()
+
+    def bend(self) -> None:
+        """Make a knuckle, or a smooth point, of the chosen line."""
+        self.hand.ask("(p, name) => p.find(name)", self.pick()[0])
+        self.key(self.rng.choice(["n", "Shift+N", "Shift+T"]))
+
+    def act(self) -> str:
+        """Do one thing."""
+        acts = {
+            self.drag: 10, self.arrows: 3, self.table: 3, self.undo: 9, self.look_back: 3,
+            self.fair: 1, self.vary: 1, self.bend: 1,
+        }  # fmt: skip
+        (what,) = self.rng.choices(list(acts), list(acts.values()))
+        what()
+        self.found[what.__name__] += 1
+        return what.__name__
+
+
+def shows(window: Window, path: Path) -> bool:
+    """Tell whether a window shows what is in the file, to the bit."""
+    hull = ah.open(path)
+    shapes = hull.shapes()
+    hull.close()
+    curves = dict(window.hand.ask("p => [...p.store.curves].map(([id, c]) => [id, [...c.xyz]])"))
+    return sorted(curves) == shapes.curves.tolist() and all(
+        curves[number] == spline.xyz.ravel().tolist()
+        for number, spline in zip(shapes.curves.tolist(), shapes.spline.single(), strict=True)
+    )
+
+
+@contextmanager
+def committer(path: Path) -> Iterator[Callable[[str, float], int]]:
+    """Give a process that commits to the file: called, it gives how many edits there are then."""
+    run = subprocess.Popen(
+        [sys.executable, "-c", COMMITTER, str(path)],
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    assert run.stdin is not None
+    assert run.stdout is not None
+    sender, answers = run.stdin, run.stdout
+    answers.readline()
+
+    def commit(name: str, far: float) -> int:
+        sender.write(f"{name}|{far}\n")
+        sender.flush()
+        return int(answers.readline())
+
+    yield commit
+    sender.close()
+    run.wait(60.0)
+
+
+def gestures(browser: Browser, name: str, minutes: float, seed: int, tell: Callable[[str], None]) -> bool:  # fmt: skip  # noqa: E501
+    """Do things at random for so long; tell whether all is as it must be."""
+    rng, path = random.Random(seed), Path(tempfile.mkdtemp(), "ship.hull")
+    hull = HULLS[name]()
+    first = hull.fingerprint
+    hull.save(path)
+    hull.close()
+    server = Server.start(path)
+    anna = Window.open(browser, server, "anna", rng)
+    bert = Window.open(browser, server, "bert", rng)
+    begin, counts, faults = time.monotonic(), Counter[str](), list[str]()
+    samples, elsewhere, next_look = list[tuple[float, float, float]](), 0, 0.0
+    with committer(path) as commit:
+        while (now := time.monotonic() - begin) < 60.0 * minutes:
+            if now >= next_look:
+                next_look += 60.0 * minutes / SAMPLES
+                samples.append((now, anna.heap, server.memory))
+                shown = [shows(each, path) for each in (anna, bert)]
+                faults += [f"at {now:.0f} s a window shows another hull"] * (not all(shown))
+                tell(f"{name}: {now:.0f} s, {sum(counts.values())} acts, {anna.edits} edits, page "
+                     f"{samples[-1][1]:.1f} MB, server {samples[-1][2]:.0f} MB")  # fmt: skip
+            who = anna if rng.random() < 0.7 else bert
+            which = rng.random()
+            try:
+                if which < 0.05:
+                    count = commit(anna.pick()[0], rng.gauss(0.0, 0.01))
+                    elsewhere += 1
+                    for each in (anna, bert):
+                        each.hand.until("(p, n) => p.store.history.edits === n", count)
+                    counts["another process"] += 1
+                elif which < 0.12:
+                    together(anna, bert)
+                    counts["both at once"] += 1
+                else:
+                    counts[who.act()] += 1
+                other = anna if who is bert else bert
+                other.hand.until("(p, n) => p.store.history.edits === n", who.edits)
+            except Error as error:
+                faults.append(f"{now:.0f} s, {who.author}: {str(error)[:300]}")
+                break
+    anna.quiet()
+    bert.quiet()
+    samples.append((time.monotonic() - begin, anna.heap, server.memory))
+    shown = [shows(each, path) for each in (anna, bert)]
+    said = anna.said + bert.said
+    for each in (anna, bert):
+        each.page.context.close()
+    server.end()
+    return judge(name, path, first, np.array(samples), counts, faults, shown, said, tell)
+
+
+def together(anna: Window, bert: Window) -> None:
+    """One holds a point; the other tries to take one and to undo, and is told who holds it."""
+    anna.drag(finish=False)
+    bert.take(*bert.pick())
+    bert.page.mouse.up()
+    bert.key("Control+z")
+    anna.page.mouse.up()
+    anna.quiet()
+    bert.quiet()
+
+
+def judge(
+    name: str, path: Path, first: str, samples: np.ndarray[Any, Any], counts: Counter[str],
+    faults: list[str], shown: list[bool], said: list[str], tell: Callable[[str], None],
+) -> bool:  # fmt: skip
+    """Look at the file and at the figures; tell them."""
+    hull = ah.open(path)
+    edits, findings = len(hull.history), [*hull.verify(), *hull.document.keeper.damages()]  # type: ignore[union-attr]
+    begin = time.process_time()
+    hull.undo(edits) if edits else None
+    same, took = hull.fingerprint == first, time.process_time() - begin
+    steps = len(hull.document.steps)
+    hull.close()
+    warm = samples[samples[:, 0] >= WARM * samples[-1, 0]]
+    # The least of a few looks: what is not yet collected comes and goes.
+    half = max(len(warm) // 2, 1)
+    grown = [float(warm[half:, i].min() - warm[:half, i].min()) for i in (1, 2)]
+    tell(f"{name}: {samples[-1, 0] / 60:.1f} min, load {os.getloadavg()[0]:.1f}, acts "
+         + ", ".join(f"{what} {n}" for what, n in counts.most_common()))  # fmt: skip
+    tell(f"{name}: {steps} steps, {edits} edits at the end; both windows show the file: {shown}")
+    tell(f"{name}: page {samples[0, 1]:.1f} MB at first, {warm[0, 1]:.1f} warm, "
+         f"{samples[-1, 1]:.1f} at the end, grown {grown[0]:+.2f}; server {samples[0, 2]:.0f}, "
+         f"{warm[0, 2]:.0f}, {samples[-1, 2]:.0f}, grown {grown[1]:+.1f} MB")  # fmt: skip
+    tell(f"{name}: findings of verify {len(findings)}, undone to the bit {same} ({took:.1f} s), "
+         f"messages on the console {len(said)}, faults {len(faults)}")  # fmt: skip
+    for each in (*map(str, findings[:5]), *said[:5], *faults[:5]):
+        tell(f"{name}:   {each}")
+    return same and all(shown) and not (findings or said or faults)
+
+
+def kills(browser: Browser, name: str, count: int, seed: int, tell: Callable[[str], None]) -> bool:
+    """Kill the server in the middle of gestures; tell whether nothing is lost."""
+    rng, path = random.Random(seed), Path(tempfile.mkdtemp(), "ship.hull")
+    hull = HULLS[name]()
+    first = hull.fingerprint
+    hull.save(path)
+    hull.close()
+    server = Server.start(path)
+    window = Window.open(browser, server, "anna", rng)
+    faults, back, acts, further = list[str](), list[float](), Counter[str](), 0
+    for number in range(count):
+        known = window.edits
+        act = rng.choice(["drag", "drag", "commit", "commit", "undo"])
+        acts[act] += 1
+        if act == "undo":
+            window.hand.ask("p => p.undo()")
+        else:
+            window.drag(finish=False)
+            if act == "commit":
+                window.page.mouse.up()
+            elif window.page is not None:
+                window.page.mouse.move(700.0 + rng.gauss(0.0, 40.0), 300.0)
+        # So long an edit is under way, about; what the page knows by then is what was told.
+        window.page.wait_for_timeout(rng.uniform(0.0, 120.0))
+        told = window.edits
+        server.end(signal.SIGKILL)
+        window.page.mouse.up()
+        found = ah.open(path)
+        there, whole = len(found.history), number % 10 or not found.verify()
+        found.close()
+        least = {"undo": known - 1, "commit": known, "drag": known}[act]
+        most = {"undo": known, "commit": known + 1, "drag": known}[act]
+        further += there != told
+        if not max(least, 0) <= there <= most or (act == "commit" and there < told):
+            faults.append(f"kill {number}, {act}: {known} edits known, {told} told, {there} found")
+        if not whole:
+            faults.append(f"kill {number}: verify finds something")
+        window.hand.until("p => p.store.connection === 'lost'")
+        begin, server = time.monotonic(), Server.start(path)
+        started = time.monotonic()
+        try:
+            window.hand.until(
+                "(p, n) => p.store.connection === 'open' && p.hand.free"
+                " && p.store.history.edits === n", there,
+            )  # fmt: skip
+            window.quiet()
+        except Error as error:
+            faults.append(f"kill {number}: the page did not come back: {str(error)[:200]}")
+            break
+        back.append(time.monotonic() - started)
+        if number % 10 == 9:
+            tell(f"{name}: {number + 1} kills, {there} edits, {len(faults)} faults; a server "
+                 f"starts in {started - begin:.1f} s, the page is back {back[-1]:.2f} s "
+                 "after")  # fmt: skip
+            if not shows(window, path):
+                faults.append(f"kill {number}: the window shows another hull")
+    # That a socket cannot be opened is said by the browser itself.
+    said = [each for each in window.said if "WebSocket connection to" not in each]
+    window.page.context.close()
+    server.end()
+    found = ah.open(path)
+    edits, findings = len(found.history), [*found.verify(), *found.document.keeper.damages()]  # type: ignore[union-attr]
+    found.undo(edits) if edits else None
+    same = found.fingerprint == first
+    found.close()
+    waits = np.array(back or [np.nan])
+    tell(f"{name}: {sum(acts.values())} kills ({dict(acts)}), {edits} edits at the end, {further} "
+         f"times the file was one step further than the page knew, faults {len(faults)}, findings "
+         f"of verify {len(findings)}, undone to the bit {same}, other messages on the console "
+         f"{len(said)}; the page was back after {np.median(waits):.2f} s p50, {waits.max():.2f} s "
+         "at most")  # fmt: skip
+    for each in (*map(str, findings[:5]), *said[:5], *faults[:8]):
+        tell(f"{name}:   {each}")
+    return same and not (findings or said or faults)
+
+
+def main() -> int:
+    """Run from the command line."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.page_gestures", description=__doc__)
+    parser.add_argument("--minutes", type=float, default=0.0, help="of gestures, on each hull")
+    parser.add_argument("--kills", type=int, default=0, help="of the server, on each hull")
+    parser.add_argument("--hull", action="append", choices=sorted(HULLS), help="default: all")
+    parser.add_argument("--seed", type=int, default=1)
+    given = parser.parse_args()
+    named = os.environ.get("ASSOC_HULL_BROWSER", "")
+    found = named or next(filter(None, map(shutil.which, NAMES)), None)
+    fine = True
+
+    def tell(line: str) -> None:
+        print(line, flush=True)
+
+    with sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        for name in given.hull or HULLS:
+            if given.minutes:
+                fine &= gestures(browser, name, given.minutes, given.seed, tell)
+            if given.kills:
+                fine &= kills(browser, name, given.kills, given.seed, tell)
+        browser.close()
+    return int(not fine)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
