@@ -164,8 +164,9 @@ def plain_ship() -> Figure:
 
 def six_numbers() -> Figure:
     """Draw the lines plan of a cargo ship from six numbers and a type."""
-    numbers = {"length": 100.0, "breadth": 16.0, "draught": 6.5, "depth": 9.0}
-    hull = ah.create(**numbers, cb=0.70, lcb=0.0, type="general cargo")
+    hull = ah.create(
+        length=100.0, breadth=16.0, draught=6.5, depth=9.0, cb=0.70, lcb=0.0, type="general cargo"
+    )
     return lines_plan(hull, paper="A4")
 
 

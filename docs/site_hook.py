@@ -27,6 +27,7 @@ TABLES = (
 
 LATER = {
     "api.md": 0.1,
+    "api_names.md": 0.1,
     "CHANGELOG.md": 0.2,
     "benchmarks.md": 0.2,
     "architecture.md": 0.3,

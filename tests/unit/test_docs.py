@@ -33,12 +33,19 @@ def _script(name: str) -> ModuleType:
 BLOCKS = _script("blocks")
 
 
-REFERENCE = {
+METHODS = {
     f"{each.__module__}.{each.__qualname__}.{name}"
     for each in (ah.Hull, Edit)
     for name in vars(each)
 }
-"""Anchors of the generated reference, `docs/api.md`: the site makes one for each method."""
+FACES = (
+    ah.hydro, ah.form, ah.variation, ah.creation, ah.surface, ah.study, ah.classical, ah.plot
+)  # fmt: skip
+REFERENCE = {
+    "api.md": METHODS,
+    "api_names.md": {f"{face.__name__}.{name}" for face in FACES for name in face.__all__},
+}
+"""Anchors of the generated reference: the site makes one for each name."""
 
 
 def _name(page: Path) -> str:
@@ -50,7 +57,7 @@ def _headings(page: Path) -> set[str]:
     lines = FENCE.sub("", page.read_text("utf-8")).splitlines()
     titles = [line.lstrip("#").strip() for line in lines if re.match(r"#+ ", line)]
     named = {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
-    return named | REFERENCE if page.name == "api.md" else named
+    return named | REFERENCE.get(page.name, set())
 
 
 @pytest.mark.usefixtures("made_already")
