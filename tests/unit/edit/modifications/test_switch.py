@@ -147,11 +147,12 @@ def test_no_line_takes_the_name_of_a_group_of_ones_own(hull: ah.Hull) -> None:
     with hull.edit("group") as edit:
         edit.group("fore", ["ST 15", "ST 16"])
     first = hull.fingerprint
-    for change in (
+    changes: tuple[Callable[[Edit], object], ...] = (
         lambda edit: edit.add_line("waterlines", 3.33, "fore"),
         lambda edit: edit.add_line("waterlines", 3.33, "FORE"),
         lambda edit: edit.rename("ST 15", "fore"),
-    ):
+    )
+    for change in changes:
         with pytest.raises(NameTakenError, match=r"a group.* named"), hull.edit("no") as edit:
             change(edit)
     with (
