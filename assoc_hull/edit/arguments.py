@@ -176,7 +176,8 @@ class GivenObjects:
             raise BadInputError("the group would hold nothing", where, "name lines or groups")
         for each in found:
             if found.count(each) > 1:
-                raise BadInputError(f"{each!r} is named twice", where, "name it once")
+                title = shown(lines[found.index(each)])
+                raise BadInputError(f"{title} is named twice", where, "name it once")
         return tuple(found)
 
     def rulings(self, a: str, b: str, where: Sequence[object]) -> list[Ruling]:

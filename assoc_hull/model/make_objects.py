@@ -14,6 +14,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import plain_name
 from assoc_hull.errors import NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, freeze
 from assoc_hull.graph.journal import Journal
@@ -138,6 +139,10 @@ class Maker:
             raise NameTakenError(f"line of {title}", name)
         if beside := attachment_named(self.state, name):
             raise NameTakenError(beside[0].word, name)
+        groups, plain = self.state.groups, plain_name(name)
+        for each in self.state.live("groups").tolist():
+            if groups.family[each] == OWN and plain_name(groups.name[each]) == plain:
+                raise NameTakenError("group", name)
         number = int(self.journal.grow(table, 1)[0])
         place = name if plane is None or boundary >= 0 else f"{plane[1]:.6f}"
         self.journal.set(

@@ -26,7 +26,7 @@ from assoc_hull.errors import BadInputError, PointRoleError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.model.address import address
-from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.kinds import BoundaryKind, Role, Sort
 from assoc_hull.model.links import crossing_ways, free_axes
 from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.tables import HullState
@@ -386,7 +386,12 @@ class _Chooser:
         if table.role[row] != Role.WATCHED and driver != curve:
             title = str(self.state.lines.name[self.state.line_of(driver)])
             pinned = "" if self.by_lead else ", or pin a point beside it (lead=False)"
-            ways = f"lead {title}, or make it shared (edit.set_role){pinned}"
+            kind = self.state.lines.boundary[self.state.line_of(driver)]
+            if kind >= 0:
+                flats = " with across_flats=True" if kind == BoundaryKind.FLAT else ""
+                ways = f"re-shape {title} (edit.reshape{flats}), or ask for another point{pinned}"
+            else:
+                ways = f"lead {title}, or make it shared (edit.set_role){pinned}"
             raise PointRoleError(address(self.state, row), "driven", title, ways)
         spot = table.spot[row, int(table.curve[row, 1] == curve)]
         rows: IntArray = self.state.curves.rows[curve]

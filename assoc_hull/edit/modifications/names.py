@@ -64,7 +64,9 @@ def _rename_line(edit: Transaction, line: int, name: str) -> None:
         if state.lines.group[other] == group and other != line
     }
     fixed = _fixed(state) | _labels(state, -1)
-    if name in others | fixed or plain_name(name) in _plain_groups(state):
+    if plain_name(name) in _plain_groups(state):
+        raise NameTakenError("group, tunnel or body", name)
+    if name in others | fixed:
         raise NameTakenError(f"line of {state.groups.name[int(group)]}", name)
     _rename_features(edit, str(state.lines.key[line]), state.lines.name[line], name)
     edit.journal.set(state.lines.name, [line], [name])

@@ -119,9 +119,10 @@ class ReshapeField:
         amount = part * amount
         if not self.across_flats:
             own_distance = np.interp(at, self.old.knot, self.flat)
-            amount = amount * (
-                1.0 - quintic_fade(distance / np.minimum(self.radius[1], own_distance))
-            )
+            fade = np.minimum(self.radius[1], own_distance)
+            # The border of a flat lies on it: all around moves as much.
+            share = np.divide(distance, fade, out=np.ones(len(fade)), where=fade > 0.0)
+            amount = amount * (1.0 - quintic_fade(share))
         reach = amount != 0.0
         rest = move_normal(ground, others[reach], amount[reach])
         return PointDisplacements(
@@ -290,7 +291,8 @@ def reshape(
     Raises
     ------
     BadInputError
-        Points off the curve's plane or outside the span, an empty span, radii not above 0;
+        Points off the curve's plane, outside the span or beside a flat that stays, an empty span,
+        radii not above 0;
         or points of the curve came or went in the same edit; fair with a fade or across flats.
     """
     state = edit.state
@@ -305,6 +307,8 @@ def reshape(
     radius = fade_radii(state, fade, shape)
     design = _design(old, shape, span, axis, _free_ends(state, curve))
     flat = flat_distance(state, old.xyz)
+    if not across_flats:
+        _refuse_on_flats(state, curve, old, design, flat)
     moved = _displaced(old, design, np.full(len(flat), np.inf) if across_flats else flat)
     moved[[0, -1]] = _slide(state, curve, old, moved[[0, -1]])
     new = _designed(state, curve, old, design, moved)
@@ -321,6 +325,23 @@ def reshape(
     )  # fmt: skip
     edit.pending.moved_curves.add(curve)
     return made
+
+
+def _refuse_on_flats(
+    state: HullState, curve: int, old: SplineBatch, design: _Design, flat: FloatArray
+) -> None:
+    """Refuse points that would move a flat: it stays as it is, and they would not be passed."""
+    least = state.tolerances.coincident
+    feet = evaluate(old, np.zeros(len(design.shape), np.int64), design.shape_at)
+    away = np.abs(design.shape - feet).max(axis=1)
+    held = (np.interp(design.shape_at, old.knot, flat) <= least) & (away > least)
+    if held.any():
+        name = state.lines.name[state.line_of(curve)]
+        raise BadInputError(
+            f"the point {design.shape[held][0].tolist()} lies beside a flat, which stays as it is",
+            f"in reshape of {name}",
+            "let the edit move flats (across_flats=True), or leave the point out",
+        )
 
 
 def _refuse_field(fade: Fade, *, across_flats: bool) -> None:

@@ -21,6 +21,7 @@ from assoc_hull.edit.crossings.adopted_points import (
 from assoc_hull.edit.crossings.settle_crossings import make_latent, may_define
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import IntArray
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.model.address import address
 from assoc_hull.model.gaps import gap_at
 from assoc_hull.model.keys import crossing_key
@@ -121,6 +122,7 @@ class _Switch:
     watched: list[int] = attrs.field(factory=list)
     loose: list[int] = attrs.field(factory=list)
     held: list[int] = attrs.field(factory=list)
+    beside: list[tuple[int, int]] = attrs.field(factory=list)
 
     def __attrs_post_init__(self) -> None:
         table = self.edit.state.rows
@@ -269,6 +271,7 @@ class _Switch:
         swap_anchors(state, curve, {old: new}, self.edit.journal)
         if state.rows.xyz[old].tobytes() != state.rows.xyz[new].tobytes():
             self.touched.add(curve)
+            self.beside.append((curve, new))
 
     def finish(self, *, tell: bool = True) -> None:
         """Link what rides anew, and note what is watched."""
@@ -286,6 +289,22 @@ class _Switch:
         ):
             if rows:
                 pending.notes.append(f"{self._named(rows)}: {what}")
+        self._tell_beside()
+
+    def _tell_beside(self) -> None:
+        """Note how far crossings lie off curves that are made through them again."""
+        state = self.state
+        away = {
+            row: float(closest_points(state.spline(curve), 0, state.rows.xyz[[row]])[2][0])
+            for curve, row in self.beside
+        }
+        order = sorted(away, key=lambda row: (-away[row], address(state, row)))
+        order = [row for row in order if away[row] > state.tolerances.coincident]
+        if order:
+            self.edit.pending.notes.append(
+                f"{self._named(order)}: its curve, which edits since have left up to "
+                f"{1e3 * away[order[0]]:.2g} mm beside it, passes through it again"
+            )
 
     def _named(self, rows: Sequence[int]) -> str:
         """Name the first crossings, and say how many there are."""

@@ -220,6 +220,24 @@ def test_what_is_refused_says_what_to_do_and_that_works(wigley: Hull) -> None:
     assert np.allclose(wigley.points["WL 5 x ST 7"].position, place, rtol=0.0, atol=1e-9)
 
 
+def test_a_point_that_the_border_of_a_flat_drives_names_what_can_be_done(shipped: Shipped) -> None:
+    """A boundary curve is not led: it is re-shaped, flat and all, and the point goes along."""
+    hull = shipped("series60_70")
+    point = hull.points["BTK 0.2 x flat of bottom #2"]
+    x, y, z = point.position
+    place, span = [(x + 0.3, y, z)], (x - 8.0, x + 8.0)
+    ways = r"re-shape flat of bottom \(edit.reshape with across_flats=True\), or ask for another"
+    with pytest.raises(PointRoleError, match=ways), hull.edit("driven") as edit:
+        edit.lead("BTK 0.2", [(point, place[0])])
+    flat = pytest.raises(BadInputError, match="lies beside a flat, which stays as it is, in resh")
+    with flat, hull.edit("without") as edit:
+        edit.reshape("flat of bottom", place, span=span)
+    with hull.edit("the border") as edit:
+        edit.reshape("flat of bottom", place, span=span, across_flats=True)
+    assert hull.points["BTK 0.2 x flat of bottom #2"].x == pytest.approx(x + 0.3, abs=0.005)
+    assert hull.verify() == ()
+
+
 def test_scripts_write_it_out_and_leave_points_pinned_without_it(wigley: Hull) -> None:
     """A script of an older version has no `lead`, and does what it did."""
     place = _beside(wigley, 0.01).tolist()

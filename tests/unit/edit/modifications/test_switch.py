@@ -140,3 +140,24 @@ def test_bad_groups_and_rulings(
         edit.group("inner", ["ST 1"])
         edit.group("outer", ["inner"])
     assert word in refused(hull, act, error)
+
+
+def test_no_line_takes_the_name_of_a_group_of_ones_own(hull: ah.Hull) -> None:
+    """Neither a new one nor a renamed one, in any spelling: the name would mean two things."""
+    with hull.edit("group") as edit:
+        edit.group("fore", ["ST 15", "ST 16"])
+    first = hull.fingerprint
+    changes: tuple[Callable[[Edit], object], ...] = (
+        lambda edit: edit.add_line("waterlines", 3.33, "fore"),
+        lambda edit: edit.add_line("waterlines", 3.33, "FORE"),
+        lambda edit: edit.rename("ST 15", "fore"),
+    )
+    for change in changes:
+        with pytest.raises(NameTakenError, match=r"a group.* named"), hull.edit("no") as edit:
+            change(edit)
+    with (
+        pytest.raises(BadInputError, match="'ST 15' is named twice"),
+        hull.edit("twice") as edit,
+    ):
+        edit.group("aft", ["ST 15", "ST 15"])
+    assert hull.fingerprint == first

@@ -183,3 +183,26 @@ def test_boxes_go_with_the_hull_where_it_is_carried(hull: ah.Hull, cut: float) -
         edit.transform(lambda p: p, ["sections"])
     assert edit.report is not None
     assert not edit.report.changed
+
+
+def test_the_report_says_how_far_a_curve_was_off_that_comes_back_to_its_crossings(
+    shipped: Shipped,
+) -> None:
+    """Edits since have left the giver beside the taker; nothing is said where it lies on it."""
+    hull = shipped("plain_ship")
+    with hull.edit("one-way") as edit:
+        edit.associate("buttocks", "waterlines", two_way=False)
+    x, y, z = hull.points["WL 2.7 x ST 2.5"].position
+    with hull.edit("lead") as edit:
+        edit.lead("ST 2.5", [("WL 2.7 x ST 2.5", (x, y + 0.02, z))])
+    with hull.edit("both ways") as edit:
+        edit.associate("buttocks", "waterlines")
+    assert edit.report is not None
+    (note,) = edit.report.notes
+    assert "BTK 3 x WL 2.7" in note
+    assert "mm beside it, passes through it again" in note
+    hull.undo(2)
+    with hull.edit("both ways, nothing between") as edit:
+        edit.associate("buttocks", "waterlines")
+    assert edit.report is not None
+    assert edit.report.notes == ()
