@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
-from assoc_hull.errors import BadInputError, TooFewPointsError
+from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
 from assoc_hull.io.offsets.net import (
     Completion,
@@ -573,7 +573,7 @@ def net_from_table(
         # Of the shipped Series 60 the ends are explained where she is made.
         beyond = _drawn_ends(table, at_full_size(table), completion) if straight else ()
         return state, attrs.evolve(report, notes=(*beyond, *report.notes))
-    except (BadInputError, TooFewPointsError) as error:
+    except (BadInputError, CoincidentPointsError, TooFewPointsError) as error:
         # Too few: as of a counter that reaches the deck alone at her last station.
         state, report = net_of_lines(table, ship, tolerances)
         drawn = "profile" in {str(name) for name in state.lines.name.data}
@@ -630,7 +630,9 @@ def _coarse_keel(table: OffsetTable) -> list[str]:
     ]
 
 
-def _in_its_size(table: OffsetTable, error: BadInputError | TooFewPointsError) -> str:
+def _in_its_size(
+    table: OffsetTable, error: BadInputError | CoincidentPointsError | TooFewPointsError
+) -> str:
     """Say why a table has no completion, with lengths of its own and not of full size."""
     try:
         _completion(table)

@@ -22,3 +22,10 @@ def test_a_raked_stem_is_told_too(tmp_path: Path) -> None:
     notes = trawler(tmp_path).adoption.notes  # type: ignore[union-attr]
     (stem,) = [note for note in notes if note.startswith("assumed: stem:")]
     assert "forward of it, at z = 4.6 m" in stem
+
+
+def test_no_note_names_a_line_by_its_key(tmp_path: Path) -> None:
+    """A crossing that is left out is named as people name it."""
+    notes = trawler(tmp_path).adoption.notes  # type: ignore[union-attr]
+    (left,) = [note for note in notes if note.startswith("profile x") or "x profile" in note]
+    assert left == "ST 20 x profile: not reached, left out"
