@@ -121,11 +121,13 @@ def plain_name(name: str) -> str:
 
 
 def _array(values: object) -> Floats:
-    """Give numbers as an array; one nan where they are none: True is no 1, a masked one none."""
+    """Give numbers as an array; one nan where they are none: True is no 1, a text no number."""
     each = values if isinstance(values, list | tuple) else [values]
     kinds = (getattr(getattr(value, "dtype", None), "kind", "") for value in each)
     hidden = isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values)
-    if hidden or any(isinstance(value, bool) for value in each) or {"b", "M", "m"} & {*kinds}:
+    # numpy takes the text "2" for a number, and whoever wrote it meant something else.
+    words = any(isinstance(value, bool | str | bytes) for value in each)
+    if hidden or words or {"b", "M", "m", "U", "S"} & {*kinds}:
         return np.full(1, np.nan)
     try:
         return np.array(values, np.float64)

@@ -223,7 +223,9 @@ def cad_words(report: CadReport) -> str:
     if report.volume is not None:
         rows.append(f"beside it the solid, closed by deck and transom: {report.volume:.3f} m3")
     if report.residual is not None:
-        rows.append(f"lines lie up to {1e3 * report.residual:.1f} mm off it")
+        at = f", {report.residual_place}" if report.residual_place else ""
+        rows.append(f"lines lie up to {1e3 * report.residual:.1f} mm off it{at}")
+    rows += report.left_out
     rows.append(f"read back: control points within {1e3 * report.control_point_error:.1e} mm")
     return "\n".join([*rows, f"written: {report.path} ({report.form}, {report.unit})"])
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import weakref
 from importlib.resources import files
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import anywidget
 import traitlets
@@ -12,7 +13,10 @@ from assoc_hull.hull.hull import Hull
 from assoc_hull.model.objects import Point
 from assoc_hull.page.app import family_colours
 from assoc_hull.page.joined import joined_modules, scoped_styles
-from assoc_hull.page.widget_views import SharedSession, View
+from assoc_hull.page.widget_views import Views
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 __all__ = ["HullWidget"]
 
@@ -37,6 +41,18 @@ def _styles() -> str:
     return scoped_styles(sheet, "assoc-hull-widget") + hidden
 
 
+def _sender(widget: HullWidget) -> Callable[[dict[str, object], list[bytes]], None]:
+    """Give what sends to a widget and does not keep it alive."""
+    known = weakref.ref(widget)
+
+    def send(content: dict[str, object], buffers: list[bytes]) -> None:
+        found = known()
+        if found is not None:
+            found.tell(content, buffers)
+
+    return send
+
+
 class HullWidget(anywidget.AnyWidget):
     """A hull in a notebook; `assoc_hull.widget` makes it.
 
@@ -50,14 +66,16 @@ class HullWidget(anywidget.AnyWidget):
     _css = _styles()
     _height = traitlets.Int(720).tag(sync=True)
     _author = traitlets.Unicode("").tag(sync=True)
-    _shared: SharedSession | None = None
+    _open = False
 
     def __init__(self, hull: Hull, *, height: int, author: str) -> None:
         super().__init__(_height=height, _author=author)
         self.hull = hull
-        self._shared = SharedSession.take(hull)
-        self._views = dict[str, View]()
+        self._views = Views(hull)
+        # A kernel that ends, and the collector, close what nobody closed.
+        self._end = weakref.finalize(self, self._views.end)
         self._row: int | None = None
+        self._open = True
         self.on_msg(self._take)
 
     @property
@@ -65,7 +83,7 @@ class HullWidget(anywidget.AnyWidget):
         """The point that was chosen last; None where none is, or it is gone."""
         rows = self.hull.state.rows
         if (
-            self._shared is None
+            not self._open
             or self._row is None
             or self._row >= rows.count
             or not rows.alive[self._row]
@@ -76,7 +94,7 @@ class HullWidget(anywidget.AnyWidget):
     def _take(self, _: object, content: Any, buffers: object) -> None:
         """Take what a view says; views are known by the names that they give themselves."""
         del buffers
-        if self._shared is None or not isinstance(content, dict):
+        if not self._open or not isinstance(content, dict):
             return
         name = content.get("view")
         if not isinstance(name, str) or not 0 < len(name) <= _LONGEST_NAME:
@@ -85,38 +103,29 @@ class HullWidget(anywidget.AnyWidget):
             row = content["row"]
             self._row = row if type(row) is int and row >= 0 else None
         elif content.get("gone"):
-            gone = self._views.pop(name, None)
-            if gone is not None:
-                gone.leave()
+            self._views.leave(name)
         else:
-            view = self._views.get(name)
-            if view is None:
-                view = self._views[name] = View(name, self._shared.session, self._tell)
-            view.take(content.get("text"))
+            self._views.take(name, content.get("text"), _sender(self))
 
-    def _tell(self, content: dict[str, object], buffers: list[bytes]) -> None:
+    def tell(self, content: dict[str, object], buffers: list[bytes]) -> None:
+        """Send a message to its view; from any thread."""
         try:
             self.send(content, buffers=buffers or None)
         except Exception:  # whatever a kernel raises that is going: nobody hears this view any more
-            gone = self._views.pop(str(content.get("view")), None)
-            if gone is not None:
-                gone.leave()
+            self._views.drop(str(content.get("view")))
 
     def close(self) -> None:
         """End the widget; the hull stays as it is."""
-        if self._shared is not None:
-            for view in self._views.values():
-                view.leave()
-            self._views.clear()
-            self._shared.give_back()
-            self._shared = None
+        if self._open:
+            self._open = False
+            self._end()
         super().close()
 
     def _ipython_display_(self) -> None:
         """Show a picture that a saved notebook keeps, and the living widget in its place."""
         from IPython.display import display
 
-        if self._shared is None:
+        if not self._open:
             display(self.hull)  # type: ignore[no-untyped-call]
             return
         still = self.hull._repr_mimebundle_()

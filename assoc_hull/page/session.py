@@ -168,7 +168,9 @@ class Session:
         with self._awake:
             self._open = False
             self._awake.notify()
-        self._worker.join()
+        # The collector may end a session that is lost in the worker itself.
+        if threading.current_thread() is not self._worker:
+            self._worker.join()
         self._reader.shutdown(cancel_futures=True)
         self._writer.shutdown(cancel_futures=True)
 

@@ -12,13 +12,13 @@ from assoc_hull.page.messages import Hello, parse
 from assoc_hull.page.session import Session
 from assoc_hull.page.wire import VERSION
 
-__all__ = ["SharedSession", "View"]
+__all__ = ["SharedSession", "View", "Views"]
 
 _SESSIONS: WeakKeyDictionary[Hull, SharedSession] = WeakKeyDictionary()
 
 
 class SharedSession:
-    """The session of a hull, for as long as a widget shows it."""
+    """The session of a hull, for as long as a place shows it."""
 
     def __init__(self, hull: Hull) -> None:
         self.session = Session(hull)
@@ -26,7 +26,7 @@ class SharedSession:
 
     @classmethod
     def take(cls, hull: Hull) -> SharedSession:
-        """Give the session of a hull, which is begun for the first widget."""
+        """Give the session of a hull, which is begun for the first place."""
         found = _SESSIONS.get(hull)
         if found is None:
             found = _SESSIONS[hull] = cls(hull)
@@ -34,7 +34,7 @@ class SharedSession:
         return found
 
     def give_back(self) -> None:
-        """End it with the last widget."""
+        """End it with the last place."""
         self._users -= 1
         if self._users == 0:
             _SESSIONS.pop(self.session.hull, None)
@@ -74,3 +74,46 @@ class View:
     def leave(self) -> None:
         """Forget what it holds."""
         self._session.leave(self)
+
+
+class Views:
+    """The places where a widget is shown; its session runs while there is one.
+
+    It knows nothing of the widget, so that the collector can take a widget that nobody closed.
+    """
+
+    def __init__(self, hull: Hull) -> None:
+        self._hull = hull
+        self._shared: SharedSession | None = None
+        self._views = dict[str, View]()
+
+    def take(
+        self, name: str, given: object, send: Callable[[dict[str, object], list[bytes]], None]
+    ) -> None:
+        """Take a message of a place, which is begun with its first."""
+        if self._shared is None:
+            self._shared = SharedSession.take(self._hull)
+        view = self._views.get(name)
+        if view is None:
+            view = self._views[name] = View(name, self._shared.session, send)
+        view.take(given)
+
+    def drop(self, name: str) -> None:
+        """Forget a place that hears nothing any more; from any thread."""
+        gone = self._views.pop(name, None)
+        if gone is not None:
+            gone.leave()
+
+    def leave(self, name: str) -> None:
+        """Forget a place that has gone; with the last one the session ends."""
+        self.drop(name)
+        if not self._views:
+            self.end()
+
+    def end(self) -> None:
+        """End all places, and the session if nobody else needs it."""
+        for name in list(self._views):
+            self.drop(name)
+        shared, self._shared = self._shared, None
+        if shared is not None:
+            shared.give_back()

@@ -38,6 +38,7 @@ from assoc_hull.geometry.splines.distance import closest_points_each
 from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.graph.journal import Journal
+from assoc_hull.model.address import address
 from assoc_hull.model.kinds import FAMILIES, Sort
 from assoc_hull.model.line_source import LineSource, line_curve_data
 from assoc_hull.model.loft_hull import loft_all, set_limits
@@ -415,7 +416,7 @@ def _loft(maker: Maker) -> list[str]:
         if not len(missing):
             return notes
         for row in missing.tolist():
-            notes.append(f"{maker.state.rows.key[row]}: not reached, left out")
+            notes.append(f"{address(maker.state, row)}: not reached, left out")
             _release(maker, row)
 
 

@@ -25,6 +25,10 @@ _AROUND = 1_000
 """So many has a section at most: its ends are parted into triangles corner by corner."""
 
 
+_THIN = 1e-4
+"""m: thinner bodies are refused. Single precision of an STL tells .02 mm apart at 300 m."""
+
+
 @attrs.frozen
 class BodyShape:
     """What was given of the shape of a body; None where nothing was."""
@@ -183,11 +187,61 @@ def _sound(body: AttachedBody, where: str) -> AttachedBody:
         if not one < next_:
             what = f"section {k + 1} of {body.name!r} lies at x {next_:.6g} m, behind {one:.6g} m"
             raise BadInputError(what, where, "give sections from aft forward")
+    _refuse_crossed(body, where)
     if not body.flux > 0.0:
         what = f"{body.name!r} encloses {body.flux:.6g} m3"
         raise BadInputError(what, where, "give sections that enclose an area and do not cross")
+    corner = points.reshape(-1, 3)[body.triangles]
+    one, other = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
+    size = np.linalg.norm(np.cross(one, other), axis=1)
+    # A plate of thickness t encloses t/2 times its surface, both of its faces together.
+    thick = 4.0 * body.flux / float(size.sum())
+    if thick < _THIN:
+        what = f"{body.name!r} is {1e3 * thick:.3g} mm thick"
+        remedy = f"make it {1e3 * _THIN:g} mm or more: files of meshes do not tell less apart"
+        raise BadInputError(what, where, remedy)
     low, high = float(points[..., 1].min()), float(points[..., 1].max())
     if body.both and low < 0.0 < high:
         what = f"{body.name!r} stands from y {low:.6g} to {high:.6g} m: its mirror image is in it"
         raise BadInputError(what, where, "leave both out, or keep it on one side")
     return body
+
+
+def _refuse_crossed(body: AttachedBody, where: str) -> None:
+    """Refuse sections of which two sides cross each other, seen along the normal of the section."""
+    for k, ring in enumerate(body.points, 1):
+        found = _crossing(_flat(ring))
+        if found is not None:
+            at = ", ".join(f"{each:.6g}" for each in ring[found[0]].tolist())
+            what = (
+                f"section {k} of {body.name!r} crosses itself: the sides that begin with "
+                f"points {found[0]} and {found[1]} meet, near ({at}) m"
+            )
+            raise BadInputError(what, where, "give its points in order, once round")
+
+
+def _flat(ring: FloatArray) -> FloatArray:
+    """Give a ring (m, 3) in its own plane, (m, 2), m."""
+    centred = ring - ring.mean(axis=0)
+    across = np.linalg.svd(centred, full_matrices=False)[2]
+    flat: FloatArray = centred @ across[:2].T
+    return flat
+
+
+def _crossing(ring: FloatArray) -> tuple[int, int] | None:
+    """Find two sides of a ring (m, 2) that pass through each other; not those that only touch."""
+    begin, end = ring, np.roll(ring, -1, axis=0)
+    size = float(np.ptp(ring, axis=0).max())
+    # Twice the area of side and point: smaller ones are rounding.
+    least = 1e-12 * size * size
+    way = end - begin
+
+    def beside(points: FloatArray) -> FloatArray:
+        off = points[None] - begin[:, None]
+        area = way[:, None, 0] * off[..., 1] - way[:, None, 1] * off[..., 0]
+        return np.where(np.abs(area) <= least, 0.0, np.sign(area))
+
+    first, last = beside(begin), beside(end)
+    parted = first * last < 0.0
+    found = np.argwhere(parted & parted.T)
+    return None if not len(found) else (int(found[0][0]), int(found[0][1]))

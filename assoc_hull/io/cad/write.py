@@ -417,6 +417,10 @@ class CadReport:
         Of the solid beside the shell, closed by deck and transom; None where there is none.
     residual : float or None, m
         How far the lines of the hull lie off its surfaces at most; None of surfaces alone.
+    residual_place : str
+        On which line that is, and near which crossing; empty of surfaces alone.
+    left_out : tuple of str
+        What the hull has and the file has not, such as bodies beside the net.
     """
 
     path: str
@@ -432,6 +436,8 @@ class CadReport:
     size: int
     volume: float | None = None
     residual: float | None = None
+    residual_place: str = ""
+    left_out: tuple[str, ...] = ()
 
 
 def write_cad(

@@ -8,12 +8,14 @@ of bottom) is adopted as it stands. Lengths in m, x from the AP (+ forward), z f
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
-from assoc_hull.errors import BadInputError, TooFewPointsError
+from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
 from assoc_hull.io.offsets.net import (
     Completion,
@@ -567,14 +569,42 @@ def net_from_table(
     try:
         # Fits of borders know lengths: a short hull passes them at the size these hold for.
         completion = _completion(at_full_size(table))
-        return adopt_completed(table, completion, ship, tolerances, straight=straight)
-    except (BadInputError, TooFewPointsError) as error:
+        state, report = adopt_completed(table, completion, ship, tolerances, straight=straight)
+        # Of the shipped Series 60 the ends are explained where she is made.
+        beyond = _drawn_ends(table, at_full_size(table), completion) if straight else ()
+        return state, attrs.evolve(report, notes=(*beyond, *report.notes))
+    except (BadInputError, CoincidentPointsError, TooFewPointsError) as error:
         # Too few: as of a counter that reaches the deck alone at her last station.
         state, report = net_of_lines(table, ship, tolerances)
         drawn = "profile" in {str(name) for name in state.lines.name.data}
         left = "ends and flats" if drawn else "profile, ends and flats"
         note = f"{left} are left open: {_in_its_size(table, error)}"
         return state, attrs.evolve(report, notes=(note, *report.notes, *_coarse_keel(table)))
+
+
+def _drawn_ends(table: OffsetTable, full: OffsetTable, completion: Completion) -> Iterator[str]:
+    """Tell how far waterlines were drawn beyond the last stations that have breadth there.
+
+    `full` is the table at the size of the completion.
+    """
+    ends = (
+        ("stern", 0, full.x[0] - completion.stern, "abaft", "aft"),
+        ("stem", -1, completion.stem - full.x[-1], "forward of", "forward"),
+    )
+    for name, row, beyond, way, side in ends:
+        over = np.where(full.half_breadth[row] > 0.0, beyond, 0.0)
+        most = int(np.nanargmax(over))
+        if not over[most] > _UPRIGHT:
+            continue
+        part = float(over[most]) / full.length
+        number = "first" if row == 0 else "last"
+        yield (
+            f"assumed: {name}: the table: its {number} station, x = {table.x[row]:.6g} m, has "
+            f"breadth and no station stands {way} it: waterlines are drawn on to end up to "
+            f"{part * table.length:.4g} m ({part:.2g} Lpp) {way} it, at z = {table.z[most]:.4g} m; "
+            f"to choose their ends give one more station {side} with 0 where they end, or a "
+            "transom by lines, a mesh or a surface"
+        )
 
 
 _STEEP = 0.3
@@ -600,7 +630,9 @@ def _coarse_keel(table: OffsetTable) -> list[str]:
     ]
 
 
-def _in_its_size(table: OffsetTable, error: BadInputError | TooFewPointsError) -> str:
+def _in_its_size(
+    table: OffsetTable, error: BadInputError | CoincidentPointsError | TooFewPointsError
+) -> str:
     """Say why a table has no completion, with lengths of its own and not of full size."""
     try:
         _completion(table)

@@ -376,7 +376,7 @@ def _foot(completion: Completion, x: float, below: float) -> FloatArray:
     """
     p = completion.profile
     heights = [float(h) for h in p[np.abs(p[:, 0] - x) < 1e-6, 2] if h < below]
-    spline = loft(CurveData.single(p, completion.profile_kind.tolist()))
+    spline = loft(CurveData.single(p, completion.profile_kind.tolist()), ["the profile"])
     met = intersect_planes(spline, np.eye(3)[0], np.array([x])).xyz
     heights += [float(h) for h in met[:, 2] if h < below]
     if not heights:

@@ -25,6 +25,7 @@ from assoc_hull.io.tables.json_schema import (
 )
 from assoc_hull.io.write_file import form_by_ending
 from assoc_hull.model.value_schema import NAME, NOT_NEGATIVE, POSITIVE, REAL, TEXT, list_of, one_of
+from assoc_hull.surface.blocks.fit_quality import LEFT_OUT, residual_place
 from assoc_hull.surface.blocks.fitted_surface import (
     FORMAT,
     SCHEMA,
@@ -114,7 +115,12 @@ def write_surface(
     if chosen in CAD_FORMS:
         require_sound_surface(found, accept=taken)
         report = write_cad(found.patches, path, chosen, unit=unit or "mm", half=alone, name=name)
-        return attrs.evolve(report, residual=found.whole[0].largest)
+        worst = found.whole[0]
+        missing = tuple(each for each in found.notes if each.startswith(LEFT_OUT))
+        return attrs.evolve(
+            report, residual=worst.largest, residual_place=residual_place(found.net, worst),
+            left_out=missing,
+        )  # fmt: skip
     return write_mesh(mesh_of_net(found.net, half=alone), path, chosen, unit=unit, name=name)
 
 

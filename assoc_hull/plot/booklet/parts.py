@@ -184,7 +184,7 @@ def parts_of(hull: HasState, asked: BookRequest) -> tuple[tuple[BookPart, ...], 
         "hydrostatics": lambda: hydrostatic_part(table()),
         "bonjean": lambda: _bonjean(hull, design),
         "areas": lambda: _areas(hull, design),
-        "form": lambda: _form(hull, asked),
+        "form": lambda: _form(hull, asked, design),
         "stability": lambda: _stability(hull, asked, table()),
         "surface": lambda: _surface(asked, design),
         "plates": lambda: _plates(asked),
@@ -331,7 +331,7 @@ def _areas(hull: HasState, design: HydrostaticTable) -> BookPart:
 # Form parameters, stability.
 
 
-def _form(hull: HasState, asked: BookRequest) -> BookPart:
+def _form(hull: HasState, asked: BookRequest, design: HydrostaticTable) -> BookPart:
     report = form_report(
         hull, draught=asked.draught, rho=asked.rho, shell_factor=asked.shell_factor,
         date=asked.date,
@@ -339,7 +339,7 @@ def _form(hull: HasState, asked: BookRequest) -> BookPart:
     heads = (BookColumn("symbol"), BookColumn("form parameter"), BookColumn("value", "", 4),
              BookColumn("unit"), BookColumn("note"))  # fmt: skip
     tables = tuple(
-        BookTable(part.title, heads, tuple(_form_rows(report, k))) for k, part in
+        BookTable(part.title, heads, tuple(_form_rows(report, k, design))) for k, part in
         enumerate(report.parts)
     )  # fmt: skip
     notes = tuple(f"{k}) {words}" for k, words in enumerate(report.notes, 1))
@@ -347,11 +347,18 @@ def _form(hull: HasState, asked: BookRequest) -> BookPart:
     return BookPart("form", "Form parameters", facts, tables, (), notes)
 
 
-def _form_rows(report: FormReport, part: int) -> Iterator[tuple[Cell, ...]]:
+def _form_rows(
+    report: FormReport, part: int, design: HydrostaticTable
+) -> Iterator[tuple[Cell, ...]]:
     for row in report.parts[part].rows:
         number, entry = row.value.number, row.entry
+        name = entry.name
+        if entry.symbol == "MTC":
+            # Form parameters know no KG: one document has one MTC, that of its hydrostatics.
+            number = float(design.columns["mtc"][0])
+            name += ", by BM_L" if np.isnan(design.columns["gml"][0]) else ", by GM_L"
         value = None if number is None else Rounded(number, entry.digits)
-        yield (entry.symbol, entry.name, value, row.value.unit if value else "", row.mark)
+        yield (entry.symbol, name, value, row.value.unit if value else "", row.mark)
 
 
 _KG = "KG was not given"
@@ -525,17 +532,29 @@ def _accuracy(
     findings = [str(each) for each in check(hull.state)]
     facts = (
         ("hull", design.header.fingerprint),
-        ("findings", f"{len(findings)}, listed below" if findings else "none: the net is sound"),
+        ("findings", f"{len(findings)}, listed below" if findings else "none in the net"),
+        *_verdict(asked.adoption),
         ("errors", "by integrating these lines by a second rule; they do not say how true the "
                    "lines are to a ship"),
     )  # fmt: skip
-    notes = (*findings, *design.notes, *table.notes)
+    told = () if asked.adoption is None else asked.adoption.notes
+    doubted = [each for each in told if each.startswith(("fault: ", "suspicion: "))]
+    notes = (*findings, *doubted, *design.notes, *table.notes)
     return BookPart(
         "accuracy", "Error bars and findings", facts, tuple(tables), (),
         tuple(dict.fromkeys(notes)),
     )  # fmt: skip
 
 
+def _verdict(adoption: AdoptionReport | None) -> Iterator[tuple[str, str]]:
+    """Give the verdict on a hull that was read, with its words."""
+    for note in () if adoption is None else adoption.notes:
+        title, told, words = note.partition(": ")
+        if told and title == "verdict":
+            yield "import", f"{words}{_LISTED if '(' in words else ''}"
+
+
+_LISTED = ", listed below"
 _NO_ERROR = 1e-9
 
 

@@ -7,7 +7,7 @@ With a cut-off of 0 the result is that without an earlier surface, bit for bit.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -30,6 +30,7 @@ from assoc_hull.surface.blocks.fit_block import (
 )
 from assoc_hull.surface.blocks.fit_options import FitOptions
 from assoc_hull.surface.blocks.fit_quality import (
+    LEFT_OUT,
     LineDistances,
     Residuals,
     doubts_of_border,
@@ -317,12 +318,21 @@ def surface_of_net(
     )
     borders = tuple(border for each in made for border in each.borders)
     told = (note for border in borders for note in doubts_of_border(border))
-    notes = tuple(dict.fromkeys((*_of_length(state, options), *told)))
+    notes = tuple(dict.fromkeys((*_of_length(state, options), *_beside(state), *told)))
     refitted = tuple(block.name for block in found if block.name in followed.refitted)
     return FittedSurface(
         state.particulars, options, net, found, borders, tuple(leave_out), refitted, notes,
         _of_all(made, misses, net),
     )  # fmt: skip
+
+
+def _beside(state: HullState) -> Iterator[str]:
+    """Name what the hull has beside its lines: no surface is made of it."""
+    parts = [("body", "bodies", state.bodies), ("tunnel", "tunnels", state.tunnels)]
+    for one, several, held in parts:
+        if held:
+            names = ", ".join(each.name for each in held)
+            yield f"{LEFT_OUT}{one if len(held) == 1 else several} {names}"
 
 
 def _of_length(state: HullState, options: FitOptions) -> tuple[str, ...]:

@@ -23,6 +23,7 @@ from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.surface.blocks.fit_options import FitOptions
 
 __all__ = [
+    "LEFT_OUT",
     "BlockBorder",
     "LineDistances",
     "Residuals",
@@ -33,6 +34,7 @@ __all__ = [
     "doubts_of_penalty",
     "doubts_of_shape",
     "line_distances",
+    "residual_place",
     "shown_place",
     "sum_residuals",
 ]
@@ -152,6 +154,27 @@ def sum_residuals(
     median, p95, p99 = np.percentile(distance, [50.0, 95.0, 99.0]).tolist()
     largest, place = float(distance[worst]), np.array(point[worst])
     return Residuals(kind, len(distance), median, p95, p99, largest, place, names[int(line[worst])])
+
+
+LEFT_OUT = "not in the surface: "
+"""With this begins a note on what a hull has beside its lines."""
+
+
+def residual_place(net: CurveNet, found: Residuals) -> str:
+    """Say on which line the largest distance is, and near which crossing, as "on WL 3 near ST 7".
+
+    A line without crossings is named alone; nothing where there are no distances.
+    """
+    if not found.count:
+        return ""
+    mine = np.array([name == found.line for name in net.name])
+    meeting, side = np.nonzero(mine[net.meets] & ~net.watched[:, None])
+    if not len(meeting):
+        return f"on {found.line}"
+    at = evaluate(net.batch, net.meets[meeting, side], net.place[meeting, side])
+    nearest = int(np.linalg.norm(at - found.place, axis=1).argmin())
+    other = net.meets[meeting[nearest], 1 - side[nearest]]
+    return f"on {found.line} near {net.name[int(other)]}"
 
 
 def line_distances(

@@ -1,8 +1,11 @@
 """The widget of a hull, without a browser: its session, its views, what it refuses."""
 
 import builtins
+import gc
 import json
+import threading
 import time
+import weakref
 from collections.abc import Callable
 from typing import Any
 
@@ -11,7 +14,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, MissingExtraError
 from assoc_hull.page.messages import parse
-from assoc_hull.page.widget_views import SharedSession, View
+from assoc_hull.page.widget_views import SharedSession, View, Views
 from assoc_hull.page.wire import VERSION
 
 POINT = "WL 2.5 x ST 7"
@@ -137,6 +140,45 @@ def test_a_widget_ends_and_leaves_the_hull(hull: ah.Hull) -> None:
     with hull.edit("after") as edit:
         edit.move("WL 4.16667 x ST 2", y=hull.points["WL 4.16667 x ST 2"].y + 0.01)
     assert len(hull.history) == 1
+
+
+def page_threads() -> int:
+    """How many threads sessions of pages have."""
+    return sum(each.name.startswith("assoc-hull page") for each in threading.enumerate())
+
+
+def test_the_session_of_views_lasts_as_long_as_a_place_shows_it(hull: ah.Hull) -> None:
+    """No thread before the first message, none after the last place has gone, another one later."""
+    before, views, told = page_threads(), Views(hull), Told()
+    assert page_threads() == before
+    for _ in range(2):
+        views.take("a", hello(), told)
+        views.take("b", hello(), told)
+        told.until(lambda each: each.has("state"))
+        assert page_threads() > before
+        views.leave("a")
+        assert page_threads() > before
+        views.leave("b")
+        assert page_threads() == before
+
+
+def test_a_widget_that_nobody_closed_is_ended_by_the_collector(hull: ah.Hull) -> None:
+    """Nothing of the session holds the widget: its threads end with it."""
+    widgets = pytest.importorskip("ipywidgets")
+    pytest.importorskip("anywidget")
+    before = page_threads()
+    shown = ah.widget(hull, height=300, author="anna")
+    shown._take(shown, {"view": "a", "text": hello()}, [])
+    assert page_threads() > before
+    # As when a kernel forgets a widget: its register of open ones holds it until then.
+    widgets.widgets.widget._instances.pop(shown.model_id, None)
+    known = weakref.ref(shown)
+    shown.comm.close()
+    shown.comm = None
+    del shown
+    gc.collect()
+    assert known() is None
+    assert page_threads() == before
 
 
 def test_a_cell_and_a_view_sign_by_their_own_names(hull: ah.Hull) -> None:

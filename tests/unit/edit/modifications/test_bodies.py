@@ -258,3 +258,25 @@ def test_a_variation_carries_bodies(hull: ah.Hull) -> None:
     assert hull.bodies["hatch 1"] == longer.hull.bodies["hatch 1"]
     hull.undo()
     assert hull.fingerprint == before
+
+
+BOW_TIE = [[[x, -2.0, 10.0], [x, 2.0, 12.0], [x, 2.0, 10.0], [x, -1.0, 12.0]] for x in (20.0, 26.0)]
+
+
+def test_a_section_that_crosses_itself_is_refused(hull: ah.Hull) -> None:
+    """Which section, which sides, and where; nothing is put there."""
+    with (
+        pytest.raises(BadInputError, match=r"section 1 of 'fin' crosses itself: .* near \(20, "),
+        hull.edit("fin") as edit,
+    ):
+        edit.body("fin", "fins", sections=BOW_TIE)
+    assert "fin" not in hull.bodies
+
+
+def test_a_body_as_thin_as_nothing_is_refused(hull: ah.Hull) -> None:
+    """A plate of a nanometre would break the mesh of the whole ship; a millimetre is a plate."""
+    with pytest.raises(BadInputError, match="is 1e-06 mm thick"), hull.edit("plate") as edit:
+        edit.body("plate", "plates", x=(40.0, 42.0), y=(-1.0, 1.0), z=(12.0, 12.0 + 1e-9))
+    with hull.edit("plate") as edit:
+        edit.body("plate", "plates", x=(40.0, 42.0), y=(-1.0, 1.0), z=(12.0, 12.001))
+    assert "plate" in hull.bodies
