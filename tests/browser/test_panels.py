@@ -131,7 +131,7 @@ def test_a_hull_that_is_sound_is_said_to_be(open_page: Open, hull: ah.Hull) -> N
 
 
 def test_what_was_refused_last_stands_among_the_problems(open_page: Open, hull: ah.Hull) -> None:
-    """Also when its bubble has gone; counted in the heading, a click goes there, an edit ends it."""
+    """Also when its bubble has gone; it is counted, a click goes there, an edit ends it."""
     hand = open_page(hull)
     box = opened(hand, "Problems")
     hand.ask("(p, name) => p.find(name)", POINT)
