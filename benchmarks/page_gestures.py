@@ -528,6 +528,8 @@ def main() -> int:
     parser.add_argument("--hull", action="append", choices=sorted(HULLS), help="default: all")
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
+    # Also where a shell has this run in the background, and so ignore Ctrl+C: servers end by it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     named = os.environ.get("ASSOC_HULL_BROWSER", "")
     found = named or next(filter(None, map(shutil.which, NAMES)), None)
     fine = True

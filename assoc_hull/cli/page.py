@@ -38,6 +38,7 @@ def add_page(commands: Commands) -> None:
 
 
 def _page(arguments: argparse.Namespace) -> int:
+    from assoc_hull.edit.garbage_collection import freeze_loaded_objects
     from assoc_hull.page import PageServer
 
     with PageServer(arguments.hull, port=arguments.port, author=arguments.author) as server:
@@ -45,6 +46,7 @@ def _page(arguments: argparse.Namespace) -> int:
         kept = "every edit is kept in it" if path else "edits stay in memory, and go with the page"
         facts = {"address": server.address, "hull": str(arguments.hull), "kept": path is not None}
         emit(arguments, facts, f"{server.address}\n{arguments.hull}: {kept}")
+        freeze_loaded_objects()  # a full collection beside a drag looks at what came since
         sys.stdout.flush()  # whoever reads it through a pipe is waiting for the address
         if not arguments.no_browser:
             webbrowser.open(server.address)

@@ -67,6 +67,7 @@ from assoc_hull.page.past import (
     require_step,
     state_of_step,
 )
+from assoc_hull.page.spare_memory import SpareMemory
 from assoc_hull.page.variants import Ghost, describe_parameters, ghost_of_variant
 from assoc_hull.page.wire import Frame, FrameKind, pack
 
@@ -128,6 +129,7 @@ class Session:
         self._opening = hull.snapshot()
         self._shown = hull.state_number
         self._words = net_words(hull.state)
+        self._memory = SpareMemory()
         self._watched = time.monotonic()
         self._faults = 0
         self._worker = threading.Thread(target=self._work, name="assoc-hull page", daemon=True)
@@ -183,7 +185,10 @@ class Session:
                 self._watch_file()
                 self._show_others()
                 if job is not _IDLE:
+                    self._memory.used = True
                     self._do(*job)
+                elif self._gesture is None:
+                    self._memory.give_back()
             except Exception:  # one message that fails must not silence the page for everybody
                 self._faults += 1
                 _LOG.exception("fault %d of the page's session", self._faults)

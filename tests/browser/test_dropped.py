@@ -46,6 +46,22 @@ def test_a_dropped_hull_is_shown_beside(open_page: Open, hull: ah.Hull, tmp_path
     assert hand.ask("p => p.store.beside === null")
 
 
+def test_offsets_and_meshes_are_dropped_as_well(
+    open_page: Open, hull: ah.Hull, tmp_path: Path
+) -> None:
+    """Each takes the place of the one before, with its size in words."""
+    hand, before = open_page(hull), hull.fingerprint
+    other = ah.examples.wigley(stations=7, waterlines=5)
+    box = hand.page.locator("details:has(h2:text-is('Beside'))")
+    for name in ("offsets.csv", "mesh.stl"):
+        other.export(tmp_path / name)
+        drop(hand, name, (tmp_path / name).read_bytes())
+        box.get_by_text(f"{name}, dotted: ").wait_for()
+        assert "Lpp " in box.inner_text()
+        assert hand.ask("p => p.store.beside.frame.curves.size") > 5
+    assert hull.fingerprint == before
+
+
 @pytest.mark.parametrize("name", ["garbage.csv", "garbage.stl", "garbage.xyz"])
 def test_garbage_that_is_dropped_is_told_in_a_sentence(
     open_page: Open, hull: ah.Hull, name: str

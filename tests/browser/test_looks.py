@@ -348,6 +348,40 @@ def test_fingers_pull_and_zoom(open_page: Open, hull: ah.Hull) -> None:
     assert len(hull.history) == 1
 
 
+def test_a_pen_pulls_and_the_palm_that_follows_does_nothing(open_page: Open, hull: ah.Hull) -> None:
+    """A pen says what it is above, drags as a mouse does; touches just after it are of the hand."""
+    hand = open_page(hull, has_touch=True)
+    hand.near(POINT)
+    x, y = hand.spot(POINT)
+    session = hand.page.context.new_cdp_session(hand.page)
+
+    def pen(kind: str, u: float, buttons: int) -> None:
+        session.send("Input.dispatchMouseEvent", {
+            "type": kind, "x": u, "y": y, "buttons": buttons, "pointerType": "pen",
+            "button": "left" if kind != "mouseMoved" or buttons else "none", "clickCount": 1,
+        })  # fmt: skip
+
+    pen("mouseMoved", x, 0)
+    hand.page.wait_for_selector(".view-body .tip:not([hidden])")
+    pen("mousePressed", x, 1)
+    pen("mouseMoved", x + 5.0, 1)
+    hand.until("p => p.hand.gripped")
+    pen("mouseMoved", x + 9.0, 1)
+    hand.until("p => p.store.overlay !== null")
+    pen("mouseReleased", x + 9.0, 0)
+    hand.until("p => p.store.history.edits === 1")
+    scale = hand.ask("p => p.views.body.axis.s")
+    # The clock of the events is that of the browser: the last one of the pen is sent just before.
+    pen("mouseMoved", x + 10.0, 0)
+    for kind, places in (("touchStart", [(x, y)]), ("touchMove", [(x + 30.0, y)]),
+                         ("touchEnd", [])):  # fmt: skip
+        points = [{"x": u, "y": v, "id": i} for i, (u, v) in enumerate(places)]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    hand.settled()
+    assert hand.ask("p => [p.views.body.axis.s, p.store.held]") == [scale, None]
+    assert len(hull.history) == 1
+
+
 def test_two_hundred_edits_leave_no_heap_behind(open_page: Open, hull: ah.Hull) -> None:
     """What is drawn once is forgotten; the page is as it was, and so is the hull."""
     hand = open_page(hull)

@@ -9,6 +9,8 @@ import {curveThrough, nearestCurve, nearestPoint} from "./hit.js";
 const REACH = {mouse: 12, pen: 12, touch: 22};
 const STILL = 3; // px: a press that moves less chooses and does not edit
 const FINE = 0.1;
+const PALM = 500; // ms after a pen: what touches then is the hand that holds it
+let penTime = -Infinity;
 
 export class Pointers {
   /** @param {View} view @param {Hand} hand */
@@ -51,6 +53,8 @@ export class Pointers {
 
   /** @param {PointerEvent} event */
   #down(event) {
+    if (event.pointerType === "pen") penTime = event.timeStamp;
+    if (event.pointerType === "touch" && event.timeStamp - penTime < PALM) return;
     const [x, y] = this.#place(event), {view, store, hand} = this;
     view.upper.focus({preventScroll: true});
     view.upper.setPointerCapture(event.pointerId);
@@ -102,6 +106,7 @@ export class Pointers {
 
   /** @param {PointerEvent} event */
   #move(event) {
+    if (event.pointerType === "pen") penTime = event.timeStamp;
     const [x, y] = this.#place(event), {view, press} = this;
     if (this.fingers.has(event.pointerId) && this.fingers.size === 2) return this.#pinch(event.pointerId, x, y);
     if (!press) {
