@@ -130,10 +130,8 @@ def test_a_hull_that_is_sound_is_said_to_be(open_page: Open, hull: ah.Hull) -> N
     box.get_by_text("Nothing is wrong.").wait_for()
 
 
-def test_what_was_refused_last_stands_among_the_problems(
-    open_page: Open, hull: ah.Hull
-) -> None:
-    """Also when its bubble has gone; counted in the heading, a click goes there, an edit ends it."""
+def test_what_was_refused_last_stands_among_the_problems(open_page: Open, hull: ah.Hull) -> None:
+    """Also when its bubble has gone; it is counted, a click goes there, an edit ends it."""
     hand = open_page(hull)
     box = opened(hand, "Problems")
     hand.ask("(p, name) => p.find(name)", POINT)
