@@ -141,6 +141,10 @@ def add_vary(commands: Commands) -> None:
     )  # fmt: skip
     parser.add_argument("--script", metavar="FILE.json", type=Path, help="all of it as a file")
     parser.add_argument(
+        "--ship", metavar="NAME",
+        help="what the variant in OUT is called (default: as her parent, with what was asked for)",
+    )  # fmt: skip
+    parser.add_argument(
         "--drivers", metavar="NAME", nargs="+",
         help="groups or lines that are carried as they are (default: all whose planes stay planes)",
     )  # fmt: skip
@@ -178,10 +182,10 @@ def _vary(arguments: argparse.Namespace) -> int:
 
 
 def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
-
     hull, found = vary_into_file(
-        arguments, "varying", lambda hull: hull.vary_by(script, in_place=True)
-    )
+        arguments, "varying",
+        lambda hull: hull.vary_by(script, ship=_ship(arguments, script, hull), in_place=True),
+    )  # fmt: skip
     report, saved = found.report, str(arguments.out or arguments.hull)
     facts = {
         "targets": report.targets, "rounds": report.rounds, "regions": report.regions,
@@ -197,6 +201,17 @@ def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
     told += [edit_words(hull, report.edit), f"written: {saved}"]
     emit(arguments, facts, "\n".join(told))
     return 0
+
+
+def _ship(arguments: argparse.Namespace, script: dict[str, Any], hull: Hull) -> str | None:
+    """Give what the variant is called; in the file of the parent the name stays."""
+    from assoc_hull.variation.request import request_from_data
+    from assoc_hull.variation.vary import variant_name
+
+    if arguments.ship is not None or arguments.out is None:
+        ship: str | None = arguments.ship
+        return ship
+    return variant_name(hull.particulars.name, request_from_data(script))
 
 
 def _list(arguments: argparse.Namespace) -> int:

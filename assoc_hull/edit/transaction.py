@@ -147,6 +147,11 @@ class Transaction:
         """Writes structure through this transaction's journal."""
         return Maker(self.state, self.journal)
 
+    @property
+    def changes(self) -> bool:
+        """Whether what was asked so far changes anything."""
+        return bool(self._stages) or not self._idle()
+
     def end_stage(self) -> None:
         """Carry out what is pending, so that what comes next finds the hull that comes of it.
 

@@ -31,6 +31,7 @@ from assoc_hull.arguments import (
     shown,
     small_length,
     text,
+    word,
 )
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.recording import Settings
@@ -117,7 +118,7 @@ if TYPE_CHECKING:
     from assoc_hull.variation.jumboise_hull import Names
     from assoc_hull.variation.parameters.field_layout import Layout
     from assoc_hull.variation.parameters.measurement import Measures
-    from assoc_hull.variation.request import Planes, Stations
+    from assoc_hull.variation.request import Planes, Stations, VariationRequest
     from assoc_hull.variation.sensitivities import Sensitivities
     from assoc_hull.variation.shifts.shift_terms import Fade, ShiftShape, Terminals
 
@@ -2148,6 +2149,7 @@ features
         tolerance: float = 2e-3,
         fair: float | bool = False,
         name: str | None = None,
+        ship: str | None = None,
         in_place: bool = False,
     ) -> Variation[Hull]:
         """Vary a hull so that named parameters, and outputs, have asked values; all lines follow.
@@ -2204,6 +2206,9 @@ features
             what was done, and which lines have more changes still.
         name : str
             Of the step in the history; by default it tells the values.
+        ship : str
+            What the variant is called. By default her parent's name with what was asked for, as
+            "Wigley, breadth=11"; in place the name stays.
         in_place : bool
             Vary this hull, as a step that can be undone; else a copy of it.
 
@@ -2265,11 +2270,16 @@ features
         )  # fmt: skip
         measure_parent(state_of(self, "in vary"))
         varied = _to_change(self, "vary", in_place=in_place)
-        space_map, report = vary_document(varied.document, ask)
+        called = _variant_name(self, ask, ship, in_place=in_place)
+        space_map, report = vary_document(varied.document, ask, called)
         return Variation(varied, report, space_map)
 
     def vary_by(
-        self, script: Mapping[str, Any] | str | PathLike[str], *, in_place: bool = False
+        self,
+        script: Mapping[str, Any] | str | PathLike[str],
+        *,
+        ship: str | None = None,
+        in_place: bool = False,
     ) -> Variation[Hull]:
         """Vary a hull by a script: the arguments of `vary` as data, or a JSON file of them.
 
@@ -2279,7 +2289,7 @@ features
         ----------
         script : mapping or path
             See `assoc_hull.variation.request`. `VariationReport.script` is such a one.
-        in_place : bool
+        ship, in_place : str, bool
             As in `vary`.
 
         Raises
@@ -2299,7 +2309,8 @@ features
 
         ask = request_from_data(script if isinstance(script, Mapping) else read_script(script))
         varied = _to_change(self, "vary", in_place=in_place)
-        space_map, report = vary_document(varied.document, ask)
+        called = _variant_name(self, ask, ship, in_place=in_place)
+        space_map, report = vary_document(varied.document, ask, called)
         return Variation(varied, report, space_map)
 
     def shift_sections(
@@ -3043,6 +3054,15 @@ features
         from assoc_hull.io.hull_file.saving import close_hull_file
 
         close_hull_file(self.document)
+
+
+def _variant_name(hull: Hull, ask: VariationRequest, ship: object, *, in_place: bool) -> str | None:
+    """Give what a varied hull is called; None: as before."""
+    from assoc_hull.variation.vary import variant_name
+
+    if ship is not None:
+        return word(ship, "ship", "in vary")
+    return None if in_place else variant_name(hull.particulars.name, ask)
 
 
 def _to_change(hull: Hull, act: str, *, in_place: object) -> Hull:

@@ -53,6 +53,7 @@ __all__ = [
     "read_script",
     "request_from_data",
     "script_of",
+    "title_of",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -396,7 +397,7 @@ class VariationRequest:
             MappingProxyType(found), made, _layout(layout), _drivers(drivers),
             "x" if wanted == "x" else "number", "stay" if level == "stay" else "follow",
             positive(tolerance, "tolerance", "in vary"),
-            _title(found, aimed) if name is None else text(name, "the name", "in vary"),
+            title_of(found, aimed) if name is None else text(name, "the name", "in vary"),
             None if any(is_layer(each) for each in layers) else tuple(layers), aimed,
             fair if isinstance(fair, bool) else positive(fair, "fair", "in vary"),
         )  # fmt: skip
@@ -525,8 +526,8 @@ def _dimensions(output: str) -> set[str]:
     return set().union(*parts) if all(parts) else set()
 
 
-def _title(values: Mapping[str, float], reach: TargetRequest | None) -> str:
-    """Give the name of the step in the history, from what is asked for."""
+def title_of(values: Mapping[str, float], reach: TargetRequest | None) -> str:
+    """Give the usual name of the step in the history, from what is asked for."""
     words = ", ".join(f"{name}={value:g}" for name, value in values.items())
     found = f"vary {words}" if words else "vary by fields"
     if reach is None:

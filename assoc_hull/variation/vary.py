@@ -37,7 +37,7 @@ from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import Parent
 from assoc_hull.variation.parameters.value_limits import present_values
 from assoc_hull.variation.plan_choice import KINK, choose_plan, parent_fairness
-from assoc_hull.variation.request import VariationRequest, script_of
+from assoc_hull.variation.request import VariationRequest, script_of, title_of
 
 if TYPE_CHECKING:
     from assoc_hull.variation.faired_followers import FairedFollowers
@@ -314,8 +314,22 @@ def measure_parent(state: HullState) -> None:
     parent_fairness(state)
 
 
+_LONG = 80
+"""Characters of a ship's name: what more was varied is not told in it."""
+
+
+def variant_name(parent: str, ask: VariationRequest) -> str:
+    """Give what a variant is called: as the parent, and what was asked for.
+
+    The name of the step does not count: one request gives one hull, whatever it is called.
+    """
+    found = f"{parent}, {title_of(ask.values, ask.reach).removeprefix('vary ')}"
+    short = found if len(found) <= _LONG else f"{parent}, varied"
+    return short if len(short) <= _LONG else parent
+
+
 def vary_document(
-    document: Document, ask: VariationRequest
+    document: Document, ask: VariationRequest, ship: str | None = None
 ) -> tuple[VariationMap, VariationReport]:
     """Vary a hull in place, as one step that can be undone.
 
@@ -325,6 +339,8 @@ def vary_document(
         The hull.
     ask : VariationRequest
         What is asked for.
+    ship : str or None
+        What the ship is called from then on, if anything changes; None: as before.
 
     Raises
     ------
@@ -359,6 +375,10 @@ def vary_document(
         left = left_values(document, ask, now)
         beyond = folds_outside(found.carry.map, room.box)
         along = went_along(levels, edit.state)
+        if ship is not None and edit.changes:
+            # In the same step: undo gives the parent back with her name.
+            called = attrs.evolve(edit.state.particulars, name=ship)
+            edit.journal.set(edit.state.settings.particulars, [0], [called])
     report = edit.report
     if report is None:
         raise BadInputError("an edit is open", "in vary", "finish it before")

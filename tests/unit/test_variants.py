@@ -132,7 +132,7 @@ def test_a_variation_is_one_step(shipped: Callable[[str], ah.Hull], variant: ah.
     """Undo gives the parent back to the bit, redo the variant."""
     hull = shipped("wigley")
     before, particulars = hull.fingerprint, hull.particulars
-    found = hull.vary_by(SCRIPT, in_place=True)
+    found = hull.vary_by(SCRIPT, ship=variant.particulars.name, in_place=True)
     assert found.hull is hull
     assert [step.name for step in hull.history] == ["more beam"]
     assert hull.fingerprint == variant.fingerprint
@@ -179,3 +179,20 @@ def test_sections_that_were_bent_are_told_where_they_cannot_serve(parent: ah.Hul
     assert found["stem_rake_deg"] == pytest.approx(4.0, abs=1e-6)
     with pytest.raises(AssocHullError, match="is a curve in space"):
         bent.hydrostatics()
+
+
+def test_a_variant_has_a_name_of_her_own() -> None:
+    """Her parent's with what was asked for; undo takes it back, in place it stays."""
+    parent = ah.examples.wigley(stations=5, waterlines=4)
+    variant = parent.vary(set={"breadth": 11.0}).hull
+    assert variant.particulars.name == "Wigley, breadth=11"
+    assert parent.particulars.name == "Wigley"
+    assert not variant.verify()
+    variant.undo()
+    assert variant.fingerprint == parent.fingerprint
+    variant.redo()
+    assert variant.particulars.name == "Wigley, breadth=11"
+    assert parent.vary(set={"breadth": 11.0}, ship="B").hull.particulars.name == "B"
+    assert parent.vary(set={"breadth": 10.0}).hull.fingerprint == parent.fingerprint
+    parent.vary(set={"breadth": 11.0}, in_place=True)
+    assert parent.particulars.name == "Wigley"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import attrs
 import openpyxl
 import pytest
 
@@ -12,7 +13,8 @@ import assoc_hull as ah
 from assoc_hull.cli import main
 from assoc_hull.errors import BadInputError
 from assoc_hull.plot.booklet.pages import book_pages
-from assoc_hull.plot.booklet.parts import PARTS, BookPart, BookRequest, parts_of
+from assoc_hull.plot.booklet.parts import PARTS, BookPart, BookRequest, Rounded, parts_of
+from tests.trawler import trawler
 
 
 @pytest.fixture(scope="module")
@@ -193,3 +195,28 @@ def test_names_in_any_script_are_printed_without_a_warning(tmp_path: Path) -> No
         edit.rename("ST 5", "肋骨 5")
     ship.report(tmp_path / "ship.pdf", parts=["areas"], draught=4.0, title="报告")
     assert "\u25a1 Größe" in " ".join(words_of(ship, "areas"))
+
+
+def test_one_document_has_one_moment_to_trim(hull: ah.Hull) -> None:
+    """With KG both parts tell MTC by GM_L, without by BM_L; the form parameters say which."""
+    for kg, lever in ((3.0, "GM_L"), (None, "BM_L")):
+        form = made(hull, "form", kg=kg)[0]
+        (row,) = [row for table in form.tables for row in table.rows if row[0] == "MTC"]
+        told = hull.hydrostatics(draught=4.0, kg=kg).mtc
+        assert str(row[1]).endswith(f", by {lever}")
+        value = row[2]
+        assert isinstance(value, Rounded)
+        assert value.value == pytest.approx(told, rel=1e-12)
+
+
+def test_a_hull_under_suspicion_is_not_called_sound(tmp_path: Path) -> None:
+    """The verdict of the import stands in its booklet, with the suspicions."""
+    boat = trawler(tmp_path)
+    asked = BookRequest(
+        ("accuracy",), (2.0, 3.0), 3.1, None, (), 1.025, 1.0, (), "refuse", None, None, None, None
+    )
+    part = parts_of(boat, attrs.evolve(asked, adoption=boat.adoption))[0][0]
+    facts = dict(part.facts)
+    assert facts["findings"] == "none in the net"
+    assert facts["import"].startswith("sound with suspicions (")
+    assert any(note.startswith("suspicion: ") for note in part.notes)
