@@ -104,7 +104,7 @@ def _coefficients(six: SixNumbers, cm: float | None, cw: float | None) -> _Coeff
     given = tuple(n for n, value in (("CM", cm), ("CW", cw)) if value is not None)
     cm = six.cb / (_CP + 0.5 * (six.cb - _CB)) if cm is None else cm
     cw = _CW + 0.3 * (six.cb - _CB) if cw is None else cw
-    return _Coefficients(cm, six.cb / cm, cw, lcb, _LCF + 0.6 * (lcb + 2.0), given)
+    return _Coefficients(cm, six.cb / cm, cw, lcb, _LCF + 0.52 * (lcb + 2.0), given)
 
 
 _CB, _CP, _CW, _LCF = 0.36, 0.55, 0.675, -3.2
@@ -152,7 +152,7 @@ def _depths(
     ratio = forms.value("sectional_area", x) / forms.value("design_waterline", x)
     ratio = ratio / (2.0 * ship.draught)
     peak = half_number(areas, "run_end")
-    side = (_GRID - peak) / np.where(_GRID < peak, 1.0 + peak, 1.0 - peak)
+    side = (_GRID - peak) / np.where(peak > _GRID, 1.0 + peak, 1.0 - peak)
     bump = 1.0 - side * side
     bump = bump * bump * (2.0 - bump)
 
@@ -163,7 +163,7 @@ def _depths(
     low, high = _FULLEST
     if not depths(high).max() <= 1.0 <= depths(low).max():
         where = "flatter" if depths(high).max() > 1.0 else "sharper"
-        what = f"sections would have to be {where} than round ones are"
+        what = f"sections would have to be {where} than round ones"
         raise BadInputError(what, _CALL, "give another cb or cm")
     middle = float(brentq(lambda each: depths(each).max() - 1.0, low, high))
     return CubicSpline([-1.0, *_GRID, 1.0], [0.0, *depths(middle), 0.0])
@@ -173,8 +173,8 @@ _MARKS = (-1.0, -0.75, -0.45, -0.1, 0.3, 0.65, 1.0)
 """s of the nodes of the contour below the waterline."""
 
 _STEM, _AFTER, _AHEAD, _RISE = 62.0, 0.12, 0.15, 1.25
-"""Angle of the stem's head, deg; overhangs at most, in parts of the length; height of the head above
-the waterline, in parts of the freeboard."""
+"""Angle of the stem's head, deg; overhangs at most, in parts of the length; height of the head
+above the waterline, in parts of the freeboard."""
 
 
 def _profile(ship: Particulars, depths: CubicSpline) -> FormDefinition:
@@ -182,9 +182,7 @@ def _profile(ship: Particulars, depths: CubicSpline) -> FormDefinition:
     half, free = 0.5 * ship.length, ship.depth - ship.draught
     nodes: dict[str, Mapping[str, float | None]] = {}
     for number, mark in enumerate(_MARKS):
-        slope, bend = (
-            -ship.draught / half**order * float(depths(mark, order)) for order in (1, 2)
-        )
+        slope, bend = (-ship.draught / half**order * float(depths(mark, order)) for order in (1, 2))
         label = {0: "AP", len(_MARKS) - 1: "FP"}.get(number, f"keel {number}")
         nodes[label] = {
             "x": half * (1.0 + mark), "y": ship.draught * (1.0 - float(depths(mark))),
@@ -227,7 +225,7 @@ def _courses(ship: Particulars, profile: FormDefinition, forms: Forms) -> list[F
     after = _AFTERWARD * np.exp(-x / (0.08 * ship.length))
     over = -bend / high**3 * (1.0 + after)
     # More than this and a topside would turn back before it comes to the deck edge.
-    most = 2.0 * np.maximum(flare - 0.05, 0.02) / (ship.depth - ship.draught)
+    most = 2.6 * np.maximum(flare - 0.05, 0.02) / (ship.depth - ship.draught)
     values = {
         "keel_angle": np.degrees(np.arctan2(wide * v, deep * u)),
         "keel_curvature": bend / low**3 * (1.0 - np.minimum(after, 1.0)),
@@ -291,8 +289,8 @@ def _beyond_ends(
 # Deck, and where lines stand.
 
 _TRANSOM, _FLARED, _SHEER = 0.74, 0.33, 0.06
-"""Breadth of the deck at the transom in parts of the widest; how much of its flare at the waterline a
-topside keeps; height of the deck there above that amidships, in parts of the freeboard."""
+"""Breadth of the deck at the transom in parts of the widest; how much of its flare at the waterline
+a topside keeps; height of the deck there above that amidships, in parts of the freeboard."""
 
 
 def _deck(ship: Particulars, profile: FormDefinition, forms: Forms) -> list[FormDefinition]:
@@ -369,7 +367,7 @@ def _notes(
         DesignNote("CM", made.cm, "", "given" if "CM" in made.given else "CB / CP", 0.62, 0.79,
                    {_SYSSER: 0.638}, seen),
         DesignNote("CW", made.cw, "", cw, 0.65, 0.72, {_SYSSER: 0.675}, seen),
-        DesignNote("LCF", made.lcf, "% L", f"{ours}: -3.2 + .6 (LCB + 2)", -9.5, -1.8,
+        DesignNote("LCF", made.lcf, "% L", f"{ours}: -3.2 + .52 (LCB + 2)", -9.5, -1.8,
                    {"Sysser 1, LCB -2.1 %": -3.1}, seen),
         DesignNote("half angle of entrance", entry, "deg",
                    "by the slope of the contour at FP, .36 if the waterline is not too fine"),
