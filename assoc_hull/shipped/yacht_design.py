@@ -102,16 +102,18 @@ class _Coefficients:
 def _coefficients(six: SixNumbers, cm: float | None, cw: float | None) -> _Coefficients:
     lcb = 100.0 * six.lcb / six.length
     given = tuple(n for n, value in (("CM", cm), ("CW", cw)) if value is not None)
-    cm = six.cb / (_CP + 0.5 * (six.cb - _CB)) if cm is None else cm
-    cw = _CW + 0.3 * (six.cb - _CB) if cw is None else cw
+    # Full curves with their centroid far aft would have two maxima.
+    less = min(max(0.05 * (lcb + 2.0), -0.3), 0.0)
+    cm = six.cb / (_CP + (0.5 + less) * (six.cb - _CB)) if cm is None else cm
+    cw = _CW + (0.3 + less) * (six.cb - _CB) if cw is None else cw
     return _Coefficients(cm, six.cb / cm, cw, lcb, _LCF + 0.52 * (lcb + 2.0), given)
 
 
 _CB, _CP, _CW, _LCF = 0.36, 0.55, 0.675, -3.2
 """Of Sysser 1, nearly: CB .359, CP .562, CW .675; LCF in % of the length where LCB is -2 %."""
 
-_STEEP, _FINEST = 0.36, 0.9
-"""Slope of the contour at FP, and least slope of the waterline there in the frame -1 to 1."""
+_STEEP, _FINEST, _BLUNTEST = 0.36, 0.9, 1.7
+"""Slope of the contour at FP; least and most of the waterline there, in the frame -1 to 1."""
 
 
 def _halves(ship: Particulars, made: _Coefficients) -> tuple[FormDefinition, FormDefinition, float]:
@@ -119,8 +121,8 @@ def _halves(ship: Particulars, made: _Coefficients) -> tuple[FormDefinition, For
     areas = fairest_polynomial(2, made.cp, 0.02 * made.lcb, {})
     # a'' = b' t' / CM at FP, where sections are triangles: a steeper contour has a finer entrance.
     steep = min(max(_STEEP * ship.length / (2.0 * ship.draught), 2.2), 3.4)
-    fine = max(made.cm * float(areas.deriv(2)(1.0)) / steep, _FINEST)
-    blunt = 2.8 - 0.25 * (made.lcb + 2.0)
+    fine = min(max(made.cm * float(areas.deriv(2)(1.0)) / steep, _FINEST), _BLUNTEST)
+    blunt = 2.8 - 0.1 * (made.lcb + 2.0)
     line = fairest_polynomial(1, made.cw, 0.02 * made.lcf, {-1.0: blunt, 1.0: -fine})
     full = made.cm * ship.breadth * ship.draught
     return (
@@ -248,7 +250,7 @@ def _courses(ship: Particulars, profile: FormDefinition, forms: Forms) -> list[F
     return found
 
 
-_AFTERWARD = 2.0
+_AFTERWARD = 3.0
 
 _STEM_ENTRY = 26.0
 """Half angle of waterlines at the head of the stem, deg."""
@@ -288,7 +290,7 @@ def _beyond_ends(
 # --------------------------------------------------------------------------------------
 # Deck, and where lines stand.
 
-_TRANSOM, _FLARED, _SHEER = 0.74, 0.33, 0.06
+_TRANSOM, _FLARED, _SHEER = 0.8, 0.33, 0.06
 """Breadth of the deck at the transom in parts of the widest; how much of its flare at the waterline
 a topside keeps; height of the deck there above that amidships, in parts of the freeboard."""
 
@@ -357,8 +359,8 @@ def _notes(
 ) -> tuple[DesignNote, ...]:
     profile, side = design.definition("profile"), design.definition("deck_side")
     ours = "ours, near Sysser 1 of the Delft series"
-    cp = "given CM" if "CM" in made.given else f"{ours}: .55 + .5 (CB - .36)"
-    cw = "given" if "CW" in made.given else f"{ours}: .675 + .3 (CB - .36)"
+    cp = "given CM" if "CM" in made.given else f"{ours}: .55 + (.5 + .05 (LCB + 2)) (CB - .36)"
+    cw = "given" if "CW" in made.given else f"{ours}: .675 + (.3 + .05 (LCB + 2)) (CB - .36)"
     seen = "the range of the Delft series is from secondary texts: its reports were not seen"
     after, ahead = -(profile.value("transom_x") or 0.0), profile.value("stem_x") or 0.0
     drawn = "ours, looked at on lines plans"
@@ -378,7 +380,7 @@ def _notes(
                    f"{drawn}: a third of the flare at the waterline",
                    others={"Sysser 1, in parts of B": 1.14}),
         DesignNote("breadth of the transom", 2.0 * (side.value("transom_y") or 0.0), "m",
-                   f"{drawn}: .74 of the deck's; the transom is upright"),
+                   f"{drawn}: .8 of the deck's; the transom is upright"),
         DesignNote("type", ship.length, "m", "yacht canoe body",
                    remark="no keel, no rudder; length and CB are those of the waterline"),
     )  # fmt: skip
