@@ -8,7 +8,6 @@ each half. The frame is that of `assoc_hull.model.forms.two_halves`: -1 at AP, 1
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Mapping
 
@@ -87,7 +86,7 @@ def halves_of(curve: Polynomial, name: str, use: str, full: float) -> FormDefini
         "full": full, "run_start": -1.0, "run_end": at, "entrance_start": at, "entrance_end": 1.0,
         "top": 1.0,
     }  # fmt: skip
-    for half, (low, high) in zip(("run", "entrance"), itertools.pairwise((-1.0, at, 1.0))):
+    for half, low, high in (("run", -1.0, at), ("entrance", at, 1.0)):
         for end, place in (("start", low), ("end", high)):
             # Rounding is no angle where the curve ends level.
             slope = 0.0 if place == at else round(float(curve.deriv()(place)), 9)

@@ -102,16 +102,18 @@ class _Coefficients:
 def _coefficients(six: SixNumbers, cm: float | None, cw: float | None) -> _Coefficients:
     lcb = 100.0 * six.lcb / six.length
     given = tuple(n for n, value in (("CM", cm), ("CW", cw)) if value is not None)
-    cm = six.cb / (_CP + 0.5 * (six.cb - _CB)) if cm is None else cm
-    cw = _CW + 0.3 * (six.cb - _CB) if cw is None else cw
-    return _Coefficients(cm, six.cb / cm, cw, lcb, _LCF + 0.6 * (lcb + 2.0), given)
+    # Full curves with their centroid far aft would have two maxima.
+    less = min(max(0.05 * (lcb + 2.0), -0.3), 0.0)
+    cm = six.cb / (_CP + (0.5 + less) * (six.cb - _CB)) if cm is None else cm
+    cw = _CW + (0.3 + less) * (six.cb - _CB) if cw is None else cw
+    return _Coefficients(cm, six.cb / cm, cw, lcb, _LCF + 0.52 * (lcb + 2.0), given)
 
 
 _CB, _CP, _CW, _LCF = 0.36, 0.55, 0.675, -3.2
 """Of Sysser 1, nearly: CB .359, CP .562, CW .675; LCF in % of the length where LCB is -2 %."""
 
-_STEEP, _FINEST = 0.36, 0.9
-"""Slope of the contour at FP, and least slope of the waterline there in the frame -1 to 1."""
+_STEEP, _FINEST, _BLUNTEST = 0.36, 0.9, 1.7
+"""Slope of the contour at FP; least and most of the waterline there, in the frame -1 to 1."""
 
 
 def _halves(ship: Particulars, made: _Coefficients) -> tuple[FormDefinition, FormDefinition, float]:
@@ -119,8 +121,8 @@ def _halves(ship: Particulars, made: _Coefficients) -> tuple[FormDefinition, For
     areas = fairest_polynomial(2, made.cp, 0.02 * made.lcb, {})
     # a'' = b' t' / CM at FP, where sections are triangles: a steeper contour has a finer entrance.
     steep = min(max(_STEEP * ship.length / (2.0 * ship.draught), 2.2), 3.4)
-    fine = max(made.cm * float(areas.deriv(2)(1.0)) / steep, _FINEST)
-    blunt = 2.8 - 0.25 * (made.lcb + 2.0)
+    fine = min(max(made.cm * float(areas.deriv(2)(1.0)) / steep, _FINEST), _BLUNTEST)
+    blunt = 2.8 - 0.1 * (made.lcb + 2.0)
     line = fairest_polynomial(1, made.cw, 0.02 * made.lcf, {-1.0: blunt, 1.0: -fine})
     full = made.cm * ship.breadth * ship.draught
     return (
@@ -152,7 +154,7 @@ def _depths(
     ratio = forms.value("sectional_area", x) / forms.value("design_waterline", x)
     ratio = ratio / (2.0 * ship.draught)
     peak = half_number(areas, "run_end")
-    side = (_GRID - peak) / np.where(_GRID < peak, 1.0 + peak, 1.0 - peak)
+    side = (_GRID - peak) / np.where(peak > _GRID, 1.0 + peak, 1.0 - peak)
     bump = 1.0 - side * side
     bump = bump * bump * (2.0 - bump)
 
@@ -163,7 +165,7 @@ def _depths(
     low, high = _FULLEST
     if not depths(high).max() <= 1.0 <= depths(low).max():
         where = "flatter" if depths(high).max() > 1.0 else "sharper"
-        what = f"sections would have to be {where} than round ones are"
+        what = f"sections would have to be {where} than round ones"
         raise BadInputError(what, _CALL, "give another cb or cm")
     middle = float(brentq(lambda each: depths(each).max() - 1.0, low, high))
     return CubicSpline([-1.0, *_GRID, 1.0], [0.0, *depths(middle), 0.0])
@@ -173,8 +175,8 @@ _MARKS = (-1.0, -0.75, -0.45, -0.1, 0.3, 0.65, 1.0)
 """s of the nodes of the contour below the waterline."""
 
 _STEM, _AFTER, _AHEAD, _RISE = 62.0, 0.12, 0.15, 1.25
-"""Angle of the stem's head, deg; overhangs at most, in parts of the length; height of the head above
-the waterline, in parts of the freeboard."""
+"""Angle of the stem's head, deg; overhangs at most, in parts of the length; height of the head
+above the waterline, in parts of the freeboard."""
 
 
 def _profile(ship: Particulars, depths: CubicSpline) -> FormDefinition:
@@ -182,9 +184,7 @@ def _profile(ship: Particulars, depths: CubicSpline) -> FormDefinition:
     half, free = 0.5 * ship.length, ship.depth - ship.draught
     nodes: dict[str, Mapping[str, float | None]] = {}
     for number, mark in enumerate(_MARKS):
-        slope, bend = (
-            -ship.draught / half**order * float(depths(mark, order)) for order in (1, 2)
-        )
+        slope, bend = (-ship.draught / half**order * float(depths(mark, order)) for order in (1, 2))
         label = {0: "AP", len(_MARKS) - 1: "FP"}.get(number, f"keel {number}")
         nodes[label] = {
             "x": half * (1.0 + mark), "y": ship.draught * (1.0 - float(depths(mark))),
@@ -227,7 +227,7 @@ def _courses(ship: Particulars, profile: FormDefinition, forms: Forms) -> list[F
     after = _AFTERWARD * np.exp(-x / (0.08 * ship.length))
     over = -bend / high**3 * (1.0 + after)
     # More than this and a topside would turn back before it comes to the deck edge.
-    most = 2.0 * np.maximum(flare - 0.05, 0.02) / (ship.depth - ship.draught)
+    most = 2.6 * np.maximum(flare - 0.05, 0.02) / (ship.depth - ship.draught)
     values = {
         "keel_angle": np.degrees(np.arctan2(wide * v, deep * u)),
         "keel_curvature": bend / low**3 * (1.0 - np.minimum(after, 1.0)),
@@ -250,7 +250,7 @@ def _courses(ship: Particulars, profile: FormDefinition, forms: Forms) -> list[F
     return found
 
 
-_AFTERWARD = 2.0
+_AFTERWARD = 3.0
 
 _STEM_ENTRY = 26.0
 """Half angle of waterlines at the head of the stem, deg."""
@@ -290,9 +290,9 @@ def _beyond_ends(
 # --------------------------------------------------------------------------------------
 # Deck, and where lines stand.
 
-_TRANSOM, _FLARED, _SHEER = 0.74, 0.33, 0.06
-"""Breadth of the deck at the transom in parts of the widest; how much of its flare at the waterline a
-topside keeps; height of the deck there above that amidships, in parts of the freeboard."""
+_TRANSOM, _FLARED, _SHEER = 0.8, 0.33, 0.06
+"""Breadth of the deck at the transom in parts of the widest; how much of its flare at the waterline
+a topside keeps; height of the deck there above that amidships, in parts of the freeboard."""
 
 
 def _deck(ship: Particulars, profile: FormDefinition, forms: Forms) -> list[FormDefinition]:
@@ -359,8 +359,8 @@ def _notes(
 ) -> tuple[DesignNote, ...]:
     profile, side = design.definition("profile"), design.definition("deck_side")
     ours = "ours, near Sysser 1 of the Delft series"
-    cp = "given CM" if "CM" in made.given else f"{ours}: .55 + .5 (CB - .36)"
-    cw = "given" if "CW" in made.given else f"{ours}: .675 + .3 (CB - .36)"
+    cp = "given CM" if "CM" in made.given else f"{ours}: .55 + (.5 + .05 (LCB + 2)) (CB - .36)"
+    cw = "given" if "CW" in made.given else f"{ours}: .675 + (.3 + .05 (LCB + 2)) (CB - .36)"
     seen = "the range of the Delft series is from secondary texts: its reports were not seen"
     after, ahead = -(profile.value("transom_x") or 0.0), profile.value("stem_x") or 0.0
     drawn = "ours, looked at on lines plans"
@@ -369,7 +369,7 @@ def _notes(
         DesignNote("CM", made.cm, "", "given" if "CM" in made.given else "CB / CP", 0.62, 0.79,
                    {_SYSSER: 0.638}, seen),
         DesignNote("CW", made.cw, "", cw, 0.65, 0.72, {_SYSSER: 0.675}, seen),
-        DesignNote("LCF", made.lcf, "% L", f"{ours}: -3.2 + .6 (LCB + 2)", -9.5, -1.8,
+        DesignNote("LCF", made.lcf, "% L", f"{ours}: -3.2 + .52 (LCB + 2)", -9.5, -1.8,
                    {"Sysser 1, LCB -2.1 %": -3.1}, seen),
         DesignNote("half angle of entrance", entry, "deg",
                    "by the slope of the contour at FP, .36 if the waterline is not too fine"),
@@ -380,7 +380,7 @@ def _notes(
                    f"{drawn}: a third of the flare at the waterline",
                    others={"Sysser 1, in parts of B": 1.14}),
         DesignNote("breadth of the transom", 2.0 * (side.value("transom_y") or 0.0), "m",
-                   f"{drawn}: .74 of the deck's; the transom is upright"),
+                   f"{drawn}: .8 of the deck's; the transom is upright"),
         DesignNote("type", ship.length, "m", "yacht canoe body",
                    remark="no keel, no rudder; length and CB are those of the waterline"),
     )  # fmt: skip

@@ -58,10 +58,11 @@ def test_notes_tell_source_range_and_alternatives(cargo: Hull) -> None:
 @pytest.mark.parametrize("kind", SHIP_TYPES)
 def test_design_closes_to_cb_and_lcb_exactly(kind: str) -> None:
     """Also where the fullness of the halves has to give."""
-    ratios = ship_type(kind).ratios
-    cb = 0.5 * sum(ratios["cb"])
-    lcb = 0.01 * 0.5 * sum(ratios["lcb"]) * 150.0
-    six = SixNumbers(150.0, 150.0 / 6.4, 150.0 / 6.4 / 3.0, 15.0, cb, lcb)
+    middle = {name: 0.5 * sum(ends) for name, ends in ship_type(kind).ratios.items()}
+    length = 0.5 * sum(ship_type(kind).length)
+    breadth = length / middle["L/B"]
+    draught, cb, lcb = breadth / middle["B/T"], middle["cb"], 0.01 * middle["lcb"] * length
+    six = SixNumbers(length, breadth, draught, draught * middle["D/T"], cb, lcb)
     design = design_for(SHIP_TYPES[kind], six).design
     found = coefficients(design.definition("sectional_area"), design.particulars)
     assert found.block == pytest.approx(cb, abs=1e-12)
