@@ -23,6 +23,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import traceback
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -46,6 +47,17 @@ HULLS: dict[str, Callable[[], ah.Hull]] = {
 }
 SAMPLES = 12
 """So often is the memory looked at on the way."""
+
+STANDING = (
+    "p => JSON.stringify([p.store.history, p.store.held, p.store.refusal, p.store.problem,"
+    " p.wanted, p.hand.committing, p.hand.inFlight, p.hand.wish, p.hand.gripped, p.pending,"
+    " p.marker, p.answered, p.store.connection,"
+    " p.panel.askers.map(each => each.words?.textContent)])"
+)
+"""What a window waits for, where it waits in vain."""
+
+PATIENCE = 120.0
+"""An act takes so long (s) at most."""
 
 WARM = 0.25
 """Part of the time after which memory is not to grow any more."""
@@ -120,7 +132,7 @@ class Window:
         """Open one."""
         context = browser.new_context(viewport={"width": 1440, "height": 840}, bypass_csp=True)
         page, said = context.new_page(), list[str]()
-        page.set_default_timeout(120_000)
+        page.set_default_timeout(1e3 * PATIENCE)
         page.on("console", lambda message: said.append(message.text))
         page.on("pageerror", lambda error: said.append(str(error)))
         page.goto(server.address)
@@ -391,7 +403,10 @@ def gestures(browser: Browser, name: str, minutes: float, seed: int, tell: Calla
                 other = anna if who is bert else bert
                 other.hand.until("(p, n) => p.store.history.edits === n", who.edits)
             except Error as error:
-                faults.append(f"{now:.0f} s, {who.author}: {str(error)[:300]}")
+                acts = [each.name for each in traceback.extract_tb(error.__traceback__)]
+                told = (f"{each.author} {each.hand.ask(STANDING)}" for each in (anna, bert))
+                faults.append(f"at {now:.0f} s, {who.author} in {' > '.join(acts[1:4])}: "
+                              f"{str(error)[:80]}; {'; '.join(told)}")  # fmt: skip
                 break
     anna.quiet()
     bert.quiet()
@@ -427,10 +442,10 @@ def judge(
     same, took = hull.fingerprint == first, time.process_time() - begin
     steps = len(hull.document.steps)
     hull.close()
-    warm = samples[samples[:, 0] >= WARM * samples[-1, 0]]
+    warm = samples[samples[:, 0] >= WARM * samples[-1, 0]][-SAMPLES:]
     # The least of a few looks: what is not yet collected comes and goes.
-    half = max(len(warm) // 2, 1)
-    grown = [float(warm[half:, i].min() - warm[:half, i].min()) for i in (1, 2)]
+    half = len(warm) // 2
+    grown = [float(warm[half:, i].min() - warm[: half + 1, i].min()) for i in (1, 2)]
     tell(f"{name}: {samples[-1, 0] / 60:.1f} min, load {os.getloadavg()[0]:.1f}, acts "
          + ", ".join(f"{what} {n}" for what, n in counts.most_common()))  # fmt: skip
     tell(f"{name}: {steps} steps, {edits} edits at the end; both windows show the file: {shown}")
@@ -455,6 +470,7 @@ def kills(browser: Browser, name: str, count: int, seed: int, tell: Callable[[st
     window = Window.open(browser, server, "anna", rng)
     faults, back, acts, further = list[str](), list[float](), Counter[str](), 0
     for number in range(count):
+        window.drag()  # one that is told as made, unless it is refused or given up
         known = window.edits
         act = rng.choice(["drag", "drag", "commit", "commit", "undo"])
         acts[act] += 1

@@ -328,11 +328,10 @@ def surface_of_net(
 
 def _beside(state: HullState) -> Iterator[str]:
     """Name what the hull has beside its lines: no surface is made of it."""
-    parts = [("body", "bodies", state.bodies), ("tunnel", "tunnels", state.tunnels)]
-    for one, several, held in parts:
-        if held:
-            names = ", ".join(each.name for each in held)
-            yield f"{LEFT_OUT}{one if len(held) == 1 else several} {names}"
+    bodies, tunnels = ([each.name for each in held] for held in (state.bodies, state.tunnels))
+    for one, several, names in (("body", "bodies", bodies), ("tunnel", "tunnels", tunnels)):
+        if names:
+            yield f"{LEFT_OUT}{one if len(names) == 1 else several} {', '.join(names)}"
 
 
 def _of_length(state: HullState, options: FitOptions) -> tuple[str, ...]:
