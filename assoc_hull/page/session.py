@@ -19,6 +19,7 @@ from typing import Any, ClassVar, Protocol, cast
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.edit.document import SIGNED
 from assoc_hull.edit.drag import Drag, DragWay, Live
@@ -29,6 +30,7 @@ from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError, S
 from assoc_hull.hull.hull import Hull
 from assoc_hull.model.address import address
 from assoc_hull.model.objects import Point
+from assoc_hull.model.tables import HullState
 from assoc_hull.page.answers import describe_hydrostatics, describe_why
 from assoc_hull.page.describe import describe_net, describe_state
 from assoc_hull.page.fairing import describe_fairness, ghost_of_edits, ghost_of_window
@@ -123,6 +125,7 @@ class Session:
         # A surface takes ten seconds to write: no other answer waits for it.
         self._writer = ThreadPoolExecutor(1, "assoc-hull page writer")
         self._newest = dict[tuple[Client, type[Message]], int]()
+        self._told_of_points: tuple[NDArray[Any], ...] = ()
         self._opening = hull.snapshot()
         self._shown = hull.state_number
         self._faults = 0
@@ -541,7 +544,7 @@ class Session:
         """Tell everybody what has changed since a state."""
         number = self.hull.state_number
         changed, state = self.hull.since(before), self.hull.state
-        if changed.structural:
+        if changed.structural or not self._tells_same(state):
             self._tell_net(self._clients)
             self._shown = number
             return
@@ -555,9 +558,14 @@ class Session:
         self._tell_all(self._clients, pack(frame))
         self._shown = number  # only now: what could not be shown is looked at again
 
+    def _tells_same(self, state: HullState) -> bool:
+        """Tell whether kinds, roles and names of points are those that pages were told."""
+        return all(map(np.array_equal, _told_columns(state), self._told_of_points))
+
     def _tell_net(self, clients: list[Client]) -> None:
         """Tell all of the hull."""
         state, shapes = self.hull.state, self.hull.shapes()
+        self._told_of_points = _told_columns(state)
         rows = state.live("rows")
         text = _text(describe_net(state))
         frame = pack(Frame(FrameKind.NET, state.number, shapes.curves, shapes.spline, rows,
@@ -578,6 +586,13 @@ class Session:
         Checkpoint: _checkpoint, Why: _why, Hydrostatics: _hydrostatics,
         Fairness: _fairness, Window: _window, Preview: _preview, Export: _export,
     }  # fmt: skip
+
+
+def _told_columns(state: HullState) -> tuple[NDArray[Any], ...]:
+    """Give what a page shows beside shapes: kinds, roles, drivers and names."""
+    table = state.rows
+    columns = (table.kind, table.role, table.driver, table.label, state.lines.name)
+    return tuple(np.array(each[:]) for each in columns)
 
 
 def _shown(ghost: Ghost) -> tuple[Frame, object]:

@@ -1,6 +1,9 @@
 // The table of all actions: what they are called, by which keys, whether they can be done now.
 // Buttons, keys and the sheet of keys read it.
 
+import {showChosen} from "./go.js";
+import {isPlaced, proposeDeletion, proposeKind, takesKind} from "./point_acts.js";
+
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {{id: string, words: string, keys: string[], label?: (page: Page) => string, pressed?: (page: Page) => boolean, enabled?: (page: Page) => boolean, run: (page: Page) => void}} Action */
 
@@ -43,6 +46,10 @@ export const ACTIONS = [
   {id: "insert", words: "Insert a point into the chosen line, by a click", keys: ["i"], label: () => "Insert a point", enabled: (page) => page.store.selection.curve !== null, run: (page) => page.insert()},
   {id: "reshape", words: "Re-shape the chosen line through places that you click", keys: ["r"], label: () => "Re-shape", enabled: (page) => page.store.selection.curve !== null, run: (page) => page.shaper.start()},
   {id: "fair-shape", words: "Answer re-shapes fairly", keys: ["Shift+r"], label: () => "Fair re-shapes", pressed: (page) => page.store.tools.fairShapes, run: (page) => page.toggleTool("fairShapes")},
+  {id: "pull-by", words: "Pull the chosen point by a number of millimetres", keys: ["g"], enabled: (page) => page.store.selection.row !== null, run: (page) => page.panel.acts.focus()},
+  {id: "knuckle", words: "Knuckle: the chosen line breaks at the chosen point", keys: ["n"], label: () => "Knuckle", enabled: (page) => takesKind(page, 2), run: (page) => proposeKind(page, "knuckle")},
+  {id: "smooth", words: "Smooth: the chosen line has no knuckle at the chosen point", keys: ["Shift+n"], label: () => "Smooth", enabled: (page) => takesKind(page, 0), run: (page) => proposeKind(page, "smooth")},
+  {id: "delete", words: "Delete the chosen point, which somebody placed", keys: ["Delete"], label: () => "Delete", enabled: isPlaced, run: proposeDeletion},
   {id: "undo", words: "Undo your last edit", keys: ["Ctrl+z"], label: () => "Undo", enabled: (page) => page.hand.free && page.store.history.undo !== null, run: (page) => page.undo()},
   {id: "redo", words: "Redo what was taken back", keys: ["Ctrl+Shift+z", "Ctrl+y"], label: () => "Redo", enabled: (page) => page.hand.free && page.store.history.redo !== null, run: (page) => page.redo()},
   toggle("combs", "Curvature combs", "k"),
@@ -55,7 +62,7 @@ export const ACTIONS = [
   {id: "compress", words: "Compress lengths by 1, 2, 5, 10", keys: ["c"], label: (page) => page.store.squeeze === 1 ? "Compress" : `Compress × ${page.store.squeeze}`, pressed: (page) => page.store.squeeze !== 1,
     run: (page) => page.compress(SQUEEZES[(SQUEEZES.indexOf(page.store.squeeze) + 1) % SQUEEZES.length])},
   {id: "fit", words: "Show all of the hull", keys: ["0"], label: () => "Fit", run: (page) => page.fit()},
-  {id: "fit-selection", words: "Show what is chosen", keys: ["f"], enabled: (page) => page.store.selection.row !== null || page.store.selection.curve !== null, run: (page) => page.fly(4)},
+  {id: "fit-selection", words: "Show what is chosen", keys: ["f"], enabled: (page) => page.store.selection.row !== null || page.store.selection.curve !== null, run: showChosen},
   {id: "zoom-in", words: "Nearer", keys: ["="], run: (page) => page.zoom(1.25)},
   {id: "zoom-out", words: "Farther", keys: ["_"], run: (page) => page.zoom(0.8)},
   enlarge("body", "1", "Body plan alone, and back"),
@@ -76,6 +83,8 @@ export const ACTIONS = [
   {id: "history", words: "History: all steps, going back, comparing", keys: ["h"], run: (page) => page.panel.open("History")},
   {id: "hydrostatics", words: "Hydrostatics and sectional areas", keys: ["y"], run: (page) => page.panel.open("Hydrostatics")},
   {id: "fairing", words: "Fairing: the waviest lines, a window", keys: ["Shift+f"], run: (page) => page.panel.open("Fair")},
+  {id: "vary", words: "Vary a named parameter of the whole hull", keys: ["v"], run: (page) => page.panel.open("Vary")},
+  {id: "beside", words: "Show a file or a picture beside the hull", keys: ["o"], run: (page) => page.panel.open("Beside")},
   {id: "export", words: "Write a lines plan, offsets, a drawing", keys: ["x"], run: (page) => page.panel.open("Export")},
   {id: "theme", words: "Light, dark, or as the system", keys: ["t"], label: () => "Theme", run: (page) => page.nextTheme()},
   {id: "palette", words: "All that can be done, by its words", keys: ["Ctrl+k", ":"], run: (page) => page.palette()},

@@ -10,14 +10,16 @@ const TABS = /** @type {[import("./view.js").Kind, string][]} */ ([["body", "Bod
 const HANDS = [
   ["Choose a point or a line", "click"], ["Pull the hull, or move the point", "drag a point"], ["Move along its freedom", "Ctrl + drag"],
   ["Ten times finer (or, with Fine on, coarser); lock an axis", "Alt; Shift"], ["Radius of a pull", "wheel while dragging"], ["Pan, zoom, turn the wire", "drag the ground, wheel, drag the wire"],
-  ["Nudge by 1, 10, 0.1 mm", "arrows, with Shift, with Alt"], ["End a burst of arrows", "Enter, or a pause"], ["Pan", "Ctrl + arrows"], ["Cancel", "Esc"],
+  ["Nudge by 1, 10, 0.1 mm", "arrows, with Shift, with Alt"], ["End a burst of arrows", "Enter, or a pause"], ["Pan", "Ctrl + arrows"], ["Cancel; from the panel back to the drawing", "Esc"],
 ];
 
 /** @param {Page} page */
 export function makeBar(page) {
-  const element = document.createElement("header"), title = document.createElement("h1"), dims = document.createElement("span"), tools = document.createElement("div");
+  const element = document.createElement("header"), ship = document.createElement("div"), title = document.createElement("h1"), dims = document.createElement("span"), tools = document.createElement("div");
   element.className = "bar";
+  ship.className = "ship";
   dims.className = "dims";
+  ship.append(title, dims);
   tools.className = "tools";
   tools.setAttribute("role", "toolbar");
   tools.setAttribute("aria-label", "Tools");
@@ -59,7 +61,7 @@ export function makeBar(page) {
     };
     tabs.append(button);
   }
-  element.append(title, dims, tools, search, tabs);
+  element.append(ship, tools, search, tabs);
   const dialog = document.createElement("dialog");
   dialog.className = "sheet";
   dialog.setAttribute("aria-label", "Keys");

@@ -57,6 +57,23 @@ export function normalMovement(old, now) {
   return found;
 }
 
+/**
+ * How far the middle of each segment has left its published shape, m: a new knuckle moves no knot.
+ * Null where the knots are others.
+ * @param {Curve | undefined} old @param {Curve} now @returns {Float64Array | null}
+ */
+export function middleMovement(old, now) {
+  if (!old || old.n !== now.n) return null;
+  const found = new Float64Array(Math.max(now.n - 1, 0)), then = new Float64Array(9), at = new Float64Array(9);
+  for (let i = 0; i + 1 < now.n; i++) {
+    evaluate(old, i, 0.5, then);
+    evaluate(now, i, 0.5, at);
+    const [dx, dy, dz] = [0, 1, 2].map((j) => at[j] - then[j]), size = Math.hypot(then[3], then[4], then[5]) || 1;
+    found[i] = Math.sqrt(Math.max(dx * dx + dy * dy + dz * dz - ((dx * then[3] + dy * then[4] + dz * then[5]) / size) ** 2, 0));
+  }
+  return found;
+}
+
 /** Length of a curve, m. @param {Curve} c */
 export function arcLength(c) {
   const at = new Float64Array(9);

@@ -33,7 +33,7 @@ export class Keys {
       page.say(store.file ? `Every edit is kept in ${store.file} already.` : "This hull is in memory only: it was not opened from a hull file.");
       return;
     }
-    if (event.key === "Escape") return this.#escape(typing ? /** @type {HTMLInputElement} */ (event.target) : null);
+    if (event.key === "Escape") return this.#escape(typing ? /** @type {HTMLInputElement} */ (event.target) : null, event.target);
     if (typing && !key.startsWith("Ctrl")) return;
     if (typing && ["Ctrl+z", "Ctrl+y", "Ctrl+Shift+z"].includes(key)) return; // of the field
     const drawing = event.target instanceof HTMLCanvasElement;
@@ -46,6 +46,11 @@ export class Keys {
     if (drawing && event.key === "Enter") return this.burst ? this.finish() : store.shaping ? page.shaper.finish() : void page.panel.proposal.apply();
     if (drawing && event.key === "Backspace" && store.shaping) return page.shaper.back();
     if (!drawing && !key.startsWith("Ctrl") && key !== "/" && key !== "?" && key !== ":") return;
+    // A place that was clicked is taken back first; an edit that lies before it stays.
+    if (key === "Ctrl+z" && store.shaping?.places.length) {
+      event.preventDefault();
+      return page.shaper.back();
+    }
     const action = actionOf(page, key);
     if (!action) return;
     event.preventDefault();
@@ -53,8 +58,8 @@ export class Keys {
     action.run(page);
   }
 
-  /** @param {HTMLInputElement | null} field */
-  #escape(field) {
+  /** @param {HTMLInputElement | null} field @param {EventTarget | null} at */
+  #escape(field, at) {
     const {page} = this, {store} = page;
     if (store.held) {
       clearTimeout(this.timer);
@@ -63,41 +68,58 @@ export class Keys {
     } else if (store.refusal || store.problem) {
       store.refusal = store.problem = null;
       store.changed("overlay", "panel");
-    } else if (store.marked) {
-      store.marked = null;
-      store.changed("overlay");
     } else if (page.shaper.stop()) page.say("Nothing is re-shaped.");
     else if (store.inserting !== null) {
       store.inserting = null;
       page.say("No point is inserted.");
     } else if (store.ghost || page.shower) page.dropGhost();
     else if (field) page.leaveField(field);
+    else if (store.marked) {
+      store.marked = null;
+      store.changed("overlay");
+    }
+    else if (at instanceof Element && at.closest("aside, .bar")) page.activeView().upper.focus({preventScroll: true});
     else if (store.maximised) page.maximise(/** @type {import("./view.js").Kind} */ (store.maximised));
     else store.select(null, null);
   }
 
   /** @param {[number, number]} way @param {number} times */
   #nudge(way, times) {
-    const {page} = this, {store, hand} = page, row = store.selection.row, view = page.activeView();
-    if (row === null || view.kind === "wire") return page.say("Choose a point first: click it, or press / and type its name.");
+    const {store, hand} = this.page, view = this.page.activeView();
+    if (view.kind === "wire") return this.page.say("The wire only shows: choose a point in another drawing.");
+    if (store.tools.how === "pull") return this.nudge((way[0] + way[1]) * times * STEP);
+    const held = this.#hold("move");
+    if (!held) return;
+    const s = view.kind === "body" ? view.side(held.start[0]) : 1;
+    this.sum[view.a] += s * way[0] * times * STEP;
+    this.sum[view.b] += way[1] * times * STEP;
+    hand.move(this.sum);
+    this.#wait();
+  }
+
+  /** Pulls the hull at the chosen point by d (m) more. @param {number} d */
+  nudge(d) {
+    if (!this.#hold("pull")) return;
+    this.sum[0] += d;
+    this.page.hand.pull(this.sum[0]);
+    this.#wait();
+  }
+
+  /** Takes hold of the chosen point, or keeps it in the same burst. @param {"pull" | "move"} how */
+  #hold(how) {
+    const {page} = this, {store, hand} = page, row = store.selection.row;
+    if (row === null) return void page.say("Choose a point first: click it, or press / and type its name.");
+    if (this.burst && store.held?.how !== how) this.finish();
     if (!this.burst) {
-      if (!hand.begin(row, store.tools.how)) return;
+      if (!hand.begin(row, how)) return void page.say("That was not done: the last edit is still being made.");
       this.burst = true;
       this.sum = [0, 0, 0];
     }
-    if (!store.held) {
-      this.burst = false; // it was refused
-      return;
-    }
-    if (store.held.how === "pull") {
-      this.sum[0] += (way[0] + way[1]) * times * STEP;
-      hand.pull(this.sum[0]);
-    } else {
-      const side = view.side(store.held.start[0]), s = view.kind === "body" ? side : 1;
-      this.sum[view.a] += s * way[0] * times * STEP;
-      this.sum[view.b] += way[1] * times * STEP;
-      hand.move(this.sum);
-    }
+    if (!store.held) this.burst = false; // it was refused
+    return store.held;
+  }
+
+  #wait() {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.finish(), BURST);
   }

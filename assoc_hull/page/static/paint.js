@@ -1,6 +1,6 @@
 // What is drawn, and in which order: the hull below, what lives above.
 
-import {evaluate, normalMovement} from "./hermite.js";
+import {evaluate, middleMovement, normalMovement} from "./hermite.js";
 import {combScale, inflections, teeth} from "./comb.js";
 import {drawLabels} from "./labels.js";
 import {drawBeside, drawPicture} from "./drop.js";
@@ -115,6 +115,13 @@ export function farthest(frame, published, counts = () => true) {
   return most;
 }
 
+/** The farthest that curves of a frame are drawn off their published shape, m, also between knots. @param {Frame} frame @param {Map<number, Curve>} published */
+export function farthestDrawn(frame, published) {
+  let most = farthest(frame, published);
+  for (const [id, curve] of frame.curves) for (const far of middleMovement(published.get(id), curve) ?? []) most = Math.max(most, far);
+  return most;
+}
+
 /** @param {View} view @param {Ink} ink */
 export function paintOverlay(view, ink) {
   const g = view.context(view.upper), {store} = view, {net, overlay, selection, hover} = store;
@@ -168,9 +175,9 @@ function drawGhost(view, g, ink, frame) {
   for (const [id, c] of frame.curves) {
     const line = net?.lineOf(id), by = moved.get(id);
     if (!line || !view.shows(line)) continue;
-    const far = (/** @type {number} */ i) => by ? Math.hypot(by[3 * i], by[3 * i + 1], by[3 * i + 2]) : Infinity;
+    const far = (/** @type {number} */ i) => by ? Math.hypot(by[3 * i], by[3 * i + 1], by[3 * i + 2]) : Infinity, middle = middleMovement(curves.get(id), c);
     // What lies where it is published would only hide it.
-    view.trace(g, c, line, by ? (i) => Math.max(far(i), far(i + 1)) >= LEAST_MOVED : undefined);
+    view.trace(g, c, line, by ? (i) => Math.max(far(i), far(i + 1), middle?.[i] ?? 0) >= LEAST_MOVED : undefined);
   }
   g.strokeStyle = ink.live;
   g.lineWidth = view.kind === "wire" ? 0.7 : 1;

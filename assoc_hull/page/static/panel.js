@@ -15,6 +15,8 @@ import {Proposal} from "./propose.js";
 import {Vary} from "./vary.js";
 import {WhyPanel} from "./why.js";
 import {CROSSING} from "./net.js";
+import {LineChoice} from "./line_choice.js";
+import {PointActs} from "./point_acts.js";
 import {millimetres, signed} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
@@ -42,6 +44,12 @@ export class Panel {
     this.fields = [];
     this.shownRow = /** @type {number | null | undefined} */ (undefined);
     this.shownState = -1;
+    this.pointBox = document.createElement("div");
+    this.curveBox = document.createElement("div");
+    this.parts.Point.append(this.pointBox);
+    this.acts = new PointActs(page, this.parts.Point);
+    this.lines = new LineChoice(page, this.parts.Curve);
+    this.parts.Curve.append(this.curveBox);
     this.#signature();
     this.points = new PointTable(page, this.parts.Points);
     this.vary = new Vary(page, this.parts.Vary);
@@ -55,17 +63,21 @@ export class Panel {
     this.askers = [this.proposal, this.why, this.past, this.numbers, this.fair, this.vary, this.problems, new Files(page, this.parts.Export)];
     this.beside = new Beside(page, this.parts.Beside);
     this.radii = [0, 1].map((i) => this.#radius(i));
-    this.switches = ["fair-pull", "pinned", "insert", "reshape", "fair-shape"].map((id) => {
+    this.switches = ["fair-pull", "pinned", "insert", "reshape", "fair-shape", "knuckle", "smooth", "delete"].map((id) => {
       const action = /** @type {import("./actions.js").Action} */ (ACTIONS.find((each) => each.id === id)), found = button(action.label?.(page) ?? "", () => action.run(page));
       found.dataset.action = id;
       found.title = `${action.words} (${action.keys.map(keyWords).join(", ")})`;
       return {action, found};
     });
+    const forms = [0, 5].map((from) => {
+      const form = document.createElement("div");
+      form.className = "form";
+      form.append(...this.switches.slice(from, from ? undefined : 5).map(({found}) => found));
+      return form;
+    });
+    this.acts.add(forms[1]);
     this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
-    const form = document.createElement("div");
-    form.className = "form";
-    form.append(...this.switches.map(({found}) => found));
-    this.parts.Pull.append(form);
+    this.parts.Pull.append(forms[0]);
   }
 
   /** @param {number} i */
@@ -93,6 +105,8 @@ export class Panel {
       if (radius && field !== document.activeElement) field.value = radius[i].toFixed(1);
     });
     this.#point();
+    this.acts.render();
+    this.lines.render();
     this.#curve();
     this.#edit();
     this.points.render();
@@ -128,7 +142,7 @@ export class Panel {
   }
 
   #point() {
-    const {store} = this.page, box = this.parts.Point, row = store.held?.row ?? store.selection.row;
+    const {store} = this.page, box = this.pointBox, row = store.held?.row ?? store.selection.row;
     const point = row === null ? undefined : store.net?.points.get(row), place = row === null ? undefined : store.placeOf(row);
     if (!point || !place || !store.net) {
       this.shownRow = null;
@@ -137,7 +151,7 @@ export class Panel {
     const same = this.shownRow === row && this.shownState === store.state && this.fields.length > 0 && box.contains(this.fields[0]);
     if (same) {
       this.fields.forEach((field, i) => {
-        if (field !== document.activeElement) field.value = place[i].toFixed(4);
+        if (field !== document.activeElement && !field.dataset.typed) field.value = place[i].toFixed(4);
       });
       const moved = box.querySelector(".moved");
       if (moved) moved.textContent = this.#movedWords(row);
@@ -151,7 +165,14 @@ export class Panel {
     const moved = document.createElement("span");
     moved.className = "moved";
     moved.textContent = this.#movedWords(row);
+    // What is typed stays when somebody else has edited the hull meanwhile.
+    const old = this.shownRow === row ? this.fields : [], at = old.findIndex((field) => field === document.activeElement);
     this.fields = AXES.map((name, i) => this.#field(point, name, i, place[i]));
+    this.fields.forEach((field, i) => {
+      if (!old[i]?.dataset.typed || field.readOnly) return;
+      field.value = old[i].value;
+      field.dataset.typed = "yes";
+    });
     this.#table(box, [
       ["name", point.label || point.name],
       ["sort", store.net.sortWords(point)],
@@ -162,6 +183,7 @@ export class Panel {
     ]);
     this.shownRow = row;
     this.shownState = store.state;
+    if (at >= 0) this.fields[at].focus();
   }
 
   /** How far the chosen point is from where it is published. @param {number | null} row */
@@ -186,6 +208,10 @@ export class Panel {
     field.onkeydown = (event) => {
       if (event.key === "Enter") this.#enter(point);
     };
+    field.oninput = () => {
+      field.dataset.typed = "yes";
+      this.page.say("Enter makes the edit, Esc leaves the point where it is.");
+    };
     field.onblur = () => this.page.store.changed("panel");
     return field;
   }
@@ -196,14 +222,16 @@ export class Panel {
     const {tools} = this.page.store;
     const wrong = Object.entries(values).find(([, value]) => !Number.isFinite(value));
     if (wrong) return this.page.say(`${wrong[0]} is no number of metres: type one such as 6.953`);
-    if (point.sort !== CROSSING && !tools.pinned) return this.page.panel.proposal.show(`lead ${this.page.store.net?.curveName(point.a)} by ${point.name}`, [{op: "move", point: point.name, ...values, lead: true}]);
-    this.page.apply(`place ${point.name} at ${Object.entries(values).map(([name, value]) => `${name} ${value}`).join(", ")}`, [{op: "move", point: point.name, ...values}]);
+    const {page} = this;
+    if (point.sort !== CROSSING && !tools.pinned) return page.panel.proposal.show(`lead ${page.store.net?.curveName(point.a)} by ${point.name}`, [{op: "move", point: point.name, ...values, lead: true}]);
+    for (const field of this.fields) delete field.dataset.typed;
+    page.apply(`place ${point.name} at ${Object.entries(values).map(([name, value]) => `${name} ${value}`).join(", ")}`, [{op: "move", point: point.name, ...values}]);
   }
 
   #curve() {
-    const {store} = this.page, box = this.parts.Curve, id = store.selection.curve, net = store.net;
+    const {store} = this.page, box = this.curveBox, id = store.selection.curve, net = store.net;
     const line = id === null ? undefined : net?.lineOf(id), was = id === null ? undefined : store.curves.get(id), now = id === null ? undefined : store.curveNow(id);
-    if (id === null || !net || !line || !was || !now) return this.#words(box, "Click a line.");
+    if (id === null || !net || !line || !was || !now) return this.#words(box, "Click a line, or choose it here.");
     const [a, b] = PLANES[line.family] ?? [0, 2], before = inflections(was, a, b).length, after = inflections(now, a, b).length;
     const count = document.createElement("span");
     count.textContent = before === after ? `${after}` : `${after}, was ${before}`;

@@ -6,7 +6,13 @@ import {millimetres, signed} from "./units.js";
 /** @typedef {{number: number, parent: number, name: string, way: number, author: string, time: string, normal: number | null}} Step */
 
 /** @param {string} time */
-const clock = (time) => time ? new Date(time).toLocaleString([], {dateStyle: "short", timeStyle: "short"}) : "";
+const clock = (time) => time ? new Date(time).toLocaleString([], {dateStyle: "short", timeStyle: "short"}) + ago(time) : "";
+
+/** Within the last hours, how long ago. @param {string} time */
+function ago(time) {
+  const minutes = Math.round((Date.now() - Date.parse(time)) / 60_000);
+  return minutes < 0 || minutes > 600 ? "" : minutes < 1 ? ", just now" : minutes < 100 ? `, ${minutes} min ago` : `, ${(minutes / 60).toFixed(1)} h ago`;
+}
 
 export class Past extends Asker {
   /** @param {import("./page.js").Page} page @param {HTMLElement} box */
@@ -89,6 +95,11 @@ export class Past extends Asker {
       list.append(item);
     }
     const more = found.older ? [paragraph(`${found.older} older steps are not listed.`)] : [];
+    // The list is made anew: who is in it with the keys stays in it.
+    const at = this.box.ownerDocument.activeElement, label = at instanceof HTMLElement && this.list.contains(at) ? at.getAttribute("aria-label") ?? at.textContent : null;
     this.list.replaceChildren(list, ...more);
+    if (label === null) return;
+    const links = [...this.list.querySelectorAll("button")], same = links.find((each) => (each.getAttribute("aria-label") ?? each.textContent) === label);
+    (same ?? links[0])?.focus({preventScroll: true});
   }
 }

@@ -1,14 +1,15 @@
 // What would be made, shown as a ghost before it is: pulls that are answered fairly, lines that are led.
 
 import {Asker, button} from "./asker.js";
+import {farthestDrawn} from "./paint.js";
 import {millimetres, signed} from "./units.js";
 
 /** @typedef {{normal: number | null, moved: number, volume_change: number | null, lcb_change: number | null, notes?: string[], refused: string[]}} Cost */
 
-/** @param {Cost} cost */
-export function costWords({normal, volume_change: volume, lcb_change: lcb}) {
+/** Between its points a line may move more than they do: `drawn` is how far, m. @param {Cost} cost @param {number} [drawn] */
+export function costWords({normal, volume_change: volume, lcb_change: lcb}, drawn = 0) {
   return [
-    normal === null ? "nothing moves" : `largest movement ${millimetres(normal)} off the hull`,
+    normal === null && drawn < 1e-4 ? "nothing moves" : `largest movement ${millimetres(Math.max(normal ?? 0, drawn))} off the hull`,
     volume === null || volume === undefined ? "" : `V ${signed(volume, 2, "m³")}`,
     lcb === null || lcb === undefined ? "" : `LCB ${signed(lcb, 4, "m")}`,
   ].filter(Boolean).join(", ");
@@ -21,8 +22,13 @@ export class Proposal extends Asker {
     /** @type {{name: string, ops: object[], state: number, draft: boolean} | null} */
     this.what = null;
     this.ready = false;
-    this.make = button("Apply", () => this.apply());
-    this.give = button("Give up", () => page.dropGhost());
+    // Either way the hand is at the drawing again.
+    const back = (/** @type {() => unknown} */ act) => () => {
+      act();
+      page.activeView().upper.focus({preventScroll: true});
+    };
+    this.make = button("Apply", back(() => this.apply()));
+    this.give = button("Give up", back(() => page.dropGhost()));
     const form = document.createElement("div");
     form.className = "form";
     form.append(this.make, this.give);
@@ -31,6 +37,8 @@ export class Proposal extends Asker {
 
   /** One that is a draft is not made: it waits for more of what is asked. @param {string} name @param {object[]} ops @param {boolean} [draft] */
   show(name, ops, draft = false) {
+    // Asked once more, as by Enter in the same field: it was seen, and is wanted.
+    if (this.ready && !draft && this.what && !this.what.draft && this.what.state === this.page.store.state && JSON.stringify(this.what.ops) === JSON.stringify(ops)) return void this.apply();
     this.askGhost({t: "preview", ops}, `${name}: looking what follows …`);
     this.what = {name, ops, state: this.page.store.state, draft};
     this.ready = false;
@@ -59,9 +67,10 @@ export class Proposal extends Asker {
   /** @param {{id: number, value: Cost}} message */
   answer(message) {
     if (message.id !== this.asked || !this.what) return;
-    const {refused, notes} = message.value;
+    const {refused, notes} = message.value, {ghost, curves} = this.page.store;
     this.ready = !refused.length;
-    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value)}.`, this.what.draft ? "Nothing is changed yet: click more places, or Enter for the answer; Esc gives up." : "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
+    if (this.ready && !this.what.draft) this.make.scrollIntoView({block: "nearest"});
+    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value, ghost ? farthestDrawn(ghost, curves) : 0)}.`, this.what.draft ? "Nothing is changed yet: click more places, or Enter for the answer; Esc gives up." : "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
     this.page.say(this.words.textContent);
     this.page.store.changed("panel");
   }

@@ -6,6 +6,9 @@ import {millimetres, signed} from "./units.js";
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {{name: string, unit: string, meaning: string, value: number | null, low: number | null, high: number | null, reason: string | null}} Parameter */
 
+/** How much one press on more or less is. @type {Record<string, number>} */
+const STEPS = {m: 0.1, m2: 1, m3: 100, deg: 1, "-": 0.01};
+
 /** @param {Parameter} found @param {string} unit */
 function spanWords({low, high}, unit) {
   const words = [low === null ? "" : `from ${low.toFixed(3)}${unit}`, high === null ? "" : `up to ${high.toFixed(3)}${unit}`];
@@ -36,7 +39,9 @@ export class Vary {
     this.form = document.createElement("div");
     this.form.className = "vary";
     this.form.hidden = true;
-    this.form.append(this.choice, this.about, this.field, button("Preview", () => this.#ask(false)), button("Apply", () => this.#ask(true)), button("Remove ghost", () => this.drop()));
+    const steps = [-1, 1].map((sign) => button("", () => this.#step(sign)));
+    this.steps = steps;
+    this.form.append(this.choice, this.about, this.field, ...steps, button("Preview", () => this.#ask(false)), button("Apply", () => this.#ask(true)), button("Remove ghost", () => this.drop()));
     box.append(button("List the parameters", () => this.list()), this.form, this.words);
   }
 
@@ -56,6 +61,16 @@ export class Vary {
     this.field.value = found.value.toFixed(3);
     this.field.setAttribute("aria-label", `wanted ${found.name}${unit && `,${unit}`}`);
     this.words.textContent = "";
+    this.steps.forEach((each, i) => each.textContent = `${i ? "+" : "−"}${STEPS[found.unit] ?? STEPS["-"]}${unit}`);
+  }
+
+  /** The wanted value, a step more or less; within what is possible. @param {number} sign */
+  #step(sign) {
+    const found = this.#chosen(), value = Number(this.field.value.replace(",", ".").trim() || NaN), base = Number.isFinite(value) ? value : found?.value ?? 0;
+    if (!found) return;
+    const wanted = base + sign * (STEPS[found.unit] ?? STEPS["-"]);
+    this.field.value = Math.min(Math.max(wanted, found.low ?? -Infinity), found.high ?? Infinity).toFixed(3);
+    this.words.textContent = "Preview shows what that does.";
   }
 
   /** @param {boolean} apply */

@@ -388,3 +388,20 @@ def test_a_variant_that_cannot_be_had_is_one_sentence(page: Page, hull: ah.Hull)
         assert problem["id"] == number
         assert "error of this program" not in problem["text"]
     assert hull.fingerprint == before
+
+
+@pytest.mark.parametrize(
+    "edit",
+    [{"op": "set_kind", "point": POINT, "kind": "knuckle"},
+     {"op": "rename", "obj": "WL 0.5", "name": "WL half"}],
+    ids=["kind", "name"],
+)  # fmt: skip
+def test_what_moves_nothing_is_told_too(session: Session, edit: dict[str, object]) -> None:
+    """A new kind and a new name are shown as they are, after an undo as well."""
+    page = Page(session).enter()
+    page.ask(Apply(1, "an edit that moves nothing", [edit]))
+    page.text("done")
+    told = page.text("net")
+    page.ask(Undo(2))
+    page.text("answer")
+    assert page.text("net") != told
