@@ -1,8 +1,12 @@
-// Two lists in the panel: the points of the chosen curve, and what is wrong with the hull.
+// What is chosen, and listed: all lines by family, to choose one without knowing where it lies; the points
+// of the chosen line; what can be done with the chosen point beside dragging it; what is wrong with the hull.
 
-import {link} from "./asker.js";
+import {Asker, button, link, paragraph} from "./asker.js";
+import {CROSSING} from "./net.js";
+import {typedNumber} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
+
 /** @typedef {{kind: string, object: string, place: number[] | null, text: string}} Finding */
 
 /** Points of a curve in their order along it. @param {import("./store.js").Store} store @param {number} id @returns {number[]} */
@@ -37,9 +41,7 @@ export class PointTable {
     if (!open || key === this.shown) return;
     this.shown = key;
     if (id === null || !store.net) {
-      const words = document.createElement("p");
-      words.textContent = "Click a line: its points are listed here.";
-      return this.box.replaceChildren(words);
+      return this.box.replaceChildren(paragraph("Click a line: its points are listed here."));
     }
     const table = document.createElement("table"), caption = table.createCaption(), head = table.createTHead().insertRow();
     caption.textContent = `Points of ${store.net.curveName(id)}, m`;
@@ -71,23 +73,17 @@ export class PointTable {
 }
 
 /** What the library finds wrong; asked for, as it takes a moment on a large net. */
-export class Problems {
+export class Problems extends Asker {
   /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
-    this.page = page;
-    this.list = document.createElement("div");
-    const button = document.createElement("button");
-    button.type = "button";
-    button.textContent = "Check the hull";
-    button.onclick = () => this.ask();
-    box.append(button, this.list);
-    this.asked = 0;
+    super(page, box);
+    box.append(button("Check the hull", () => this.look()), this.words, this.list);
     this.state = -1;
     /** @type {Finding[] | null} */
     this.found = null;
   }
 
-  ask() { this.asked = this.page.request({t: "check"}); }
+  look() { this.ask({t: "check"}, "Looking …"); }
 
   /** @param {{id: number, value: Finding[] | null}} message */
   answer(message) {
@@ -98,15 +94,6 @@ export class Problems {
     this.render();
   }
 
-  /** @param {any} _message */
-  done(_message) {}
-
-  /** @param {any} _message */
-  refused(_message) { return false; }
-
-  /** @param {any} _message */
-  problem(_message) { return false; }
-
   #words() {
     const n = this.found?.length ?? 0;
     return n ? `${n} ${n === 1 ? "problem" : "problems"}` : "Nothing is wrong.";
@@ -114,8 +101,133 @@ export class Problems {
 
   render() {
     if (!this.found) return;
-    const old = this.state !== this.page.store.state, words = document.createElement("p");
-    words.textContent = `${this.#words()}${old ? " That was before the last edit." : ""}`;
-    this.list.replaceChildren(words, ...this.found.slice(0, 100).map((finding) => link(finding.text, () => this.page.goTo(finding.object, finding.place))));
+    const old = this.state !== this.page.store.state;
+    this.words.textContent = `${this.#words()}${old ? " That was before the last edit." : ""}`;
+    this.list.replaceChildren(...this.found.slice(0, 100).map((finding) => link(finding.text, () => this.page.goTo(finding.object, finding.place))));
+  }
+}
+
+const TITLES = /** @type {Record<string, string>} */ ({sections: "Sections", frames: "Frames", waterlines: "Waterlines", buttocks: "Buttocks", diagonals: "Diagonals", boundary: "Boundaries"});
+
+export class LineChoice {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    this.page = page;
+    this.select = document.createElement("select");
+    this.select.setAttribute("aria-label", "the chosen line");
+    this.select.onchange = () => {
+      if (this.select.value) page.choose(null, Number(this.select.value));
+    };
+    this.shown = /** @type {import("./net.js").Net | null} */ (null);
+    box.append(this.select);
+  }
+
+  render() {
+    const {net, selection} = this.page.store;
+    if (!net) return;
+    if (net !== this.shown) {
+      this.shown = net;
+      const families = new Map();
+      for (const line of [...net.lines].sort((p, q) => (p.offset ?? 0) - (q.offset ?? 0))) {
+        const group = families.get(line.family) ?? document.createElement("optgroup");
+        group.label = TITLES[line.family] ?? line.family;
+        line.curves.forEach((id, i) => group.append(new Option(line.names[i], String(id))));
+        families.set(line.family, group);
+      }
+      this.select.replaceChildren(new Option("choose a line …", ""), ...families.values());
+    }
+    const value = selection.curve === null ? "" : String(selection.curve);
+    if (this.select.value !== value) this.select.value = value;
+  }
+}
+
+const MOST = 50; // m; no pull is as large
+
+/** The address of a point as one of a line: "ST 7 x WL 2" is that of ST 7. @param {Page} page @param {import("./net.js").Point} point @param {number} curve */
+function addressOn({store}, point, curve) {
+  const [whole, one, other, rest] = /^(.+?) x (.+?)( #\d+)?$/.exec(point.name) ?? [point.name], line = store.net?.lineOf(curve)?.name;
+  return whole === point.name && one !== undefined && other === line ? `${other} x ${one}${rest ?? ""}` : point.name;
+}
+
+/** The chosen point, and the curve that it is changed on. @param {Page} page */
+function chosen({store}) {
+  const {selection, net} = store, point = selection.row === null ? undefined : net?.points.get(selection.row);
+  if (!point) return null;
+  const curve = selection.curve !== null && [point.a, point.b].includes(selection.curve) ? selection.curve : point.a;
+  return {point, curve, kind: point.kind[curve === point.a ? 0 : 1]};
+}
+
+/** Whether a point could be made a knuckle, or smooth. @param {Page} page @param {number} kind */
+export const takesKind = (page, kind) => chosen(page) !== null && chosen(page)?.kind !== kind;
+
+/** Whether a point is one that somebody placed. @param {Page} page */
+export const isPlaced = (page) => (chosen(page)?.point.sort ?? CROSSING) !== CROSSING;
+
+/** Shows what a knuckle, or its end, does. @param {Page} page @param {"knuckle" | "smooth"} kind */
+export function proposeKind(page, kind) {
+  const found = chosen(page);
+  if (!found) return;
+  const line = page.store.net?.curveName(found.curve) ?? "";
+  page.panel.proposal.show(`${kind === "knuckle" ? "a knuckle of" : "no knuckle of"} ${line} at ${found.point.name}`, [{op: "set_kind", point: addressOn(page, found.point, found.curve), kind}]);
+}
+
+/** Shows what the line is without a point. @param {Page} page */
+export function proposeDeletion(page) {
+  const found = chosen(page);
+  if (found) page.panel.proposal.show(`delete ${found.point.name}`, [{op: "delete", point: found.point.name}]);
+}
+
+export class PointActs {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    this.page = page;
+    this.element = document.createElement("div");
+    const label = document.createElement("label");
+    this.steps = [-1, 1].map((sign) => button(`${sign < 0 ? "−" : "+"}1 mm`, () => page.keys.nudge(sign * 1e-3)));
+    this.field = document.createElement("input");
+    this.field.inputMode = "decimal";
+    this.field.title = "Outward; a minus takes the hull in. Enter pulls by so much, over the radius below.";
+    this.field.onkeydown = (event) => {
+      if (event.key !== "Enter") return;
+      event.preventDefault();
+      this.#pull();
+    };
+    label.append("pull by, mm ", this.field);
+    label.className = "row";
+    this.way = paragraph("");
+    this.element.append(label, this.way);
+    box.append(this.element);
+  }
+
+  /** A knuckle, its end and a deletion are buttons that the panel makes of its table. @param {HTMLElement} buttons */
+  add(buttons) {
+    buttons.prepend(...this.steps);
+    this.element.append(buttons);
+  }
+
+  focus() {
+    this.render();
+    this.field.focus();
+    this.field.select();
+  }
+
+  render() {
+    const point = chosen(this.page)?.point;
+    this.element.hidden = !point;
+    if (!point) return;
+    const words = point.held ? this.page.store.net?.wayWords(point) ?? "" : "";
+    if (this.way.textContent !== words) this.way.textContent = words;
+    this.way.hidden = !words;
+  }
+
+  #pull() {
+    const {page} = this, {tools} = page.store, point = chosen(page)?.point, far = typedNumber(this.field), d = far / 1e3;
+    if (!point) return;
+    if (!Number.isFinite(d) || d === 0 || Math.abs(d) > MOST) return page.say(`"${this.field.value}" is no pull: type millimetres, such as 5 or -2.5`);
+    const name = `pull ${point.name} by ${far} mm`, ops = [{op: "pull", point: point.name, d, ...(tools.radius ? {radius: tools.radius} : {}), ...(tools.fair ? {fair: true} : {})}];
+    this.field.value = "";
+    // Outside the drawing Enter would pull once more.
+    if (tools.fair) page.panel.proposal.show(`${name}, answered fairly`, ops);
+    else page.apply(name, ops);
   }
 }

@@ -1,4 +1,5 @@
-// How the page is looked at, kept by the browser for the next time; nothing of the hull is.
+// How the page looks: what the browser keeps of that for the next time, which is nothing of the hull;
+// colours; and the room that each view has.
 
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {import("./store.js").Store} Store */
@@ -25,5 +26,35 @@ export function restoreLooks(page) {
     if (["auto", "light", "dark"].includes(theme)) store.theme = theme;
   } catch {
     page.options.keep("looks", "{}"); // what was kept is none of ours
+  }
+}
+
+const NAMES = ["paper", "ink", "soft", "grid", "water", "live", "spike", "comb", "hot", "ghost",
+  "boundary", "sections", "waterlines", "buttocks", "diagonals", "frames"];
+
+/** @param {HTMLElement} root @returns {Record<string, string>} */
+export function readInk(root) {
+  const style = getComputedStyle(root);
+  return Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+}
+
+/** Which of the two is shown. @param {string} wish */
+export function themeOf(wish) {
+  if (wish !== "auto") return wish;
+  return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+}
+
+const SHARE = 0.254, LEAST = 104; // of the height at most, px at least
+
+/** Gives the low views the height that the hull fills at the scale of its length; all of theirs where lengths are compressed. @param {Page} page */
+export function layRows(page) {
+  const {store, views} = page, box = views.profile.element.parentElement;
+  if (!box || !store.net) return;
+  const {clientWidth: wide, clientHeight: high} = box, key = `${wide}/${high}/${store.squeeze}/${store.net.particulars.name}`;
+  if (box.dataset.laid === key) return;
+  box.dataset.laid = key;
+  for (const view of [views.profile, views.half]) {
+    const most = Math.max(SHARE * high, LEAST), want = store.squeeze === 1 ? view.heightFor(wide) : most;
+    box.style.setProperty(`--${view.kind}`, `${Math.round(Math.min(Math.max(want, LEAST), most))}px`);
   }
 }

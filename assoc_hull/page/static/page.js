@@ -1,24 +1,20 @@
 // The page: its parts, what the server says, and what the actions do. Everything hangs on one root.
 
-import {ACTIONS, keyWords} from "./actions.js";
+import {ACTIONS, Keys, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
-import {Keys} from "./keys.js";
 import {GHOST, LIVE, NET, THEIRS, VERSION, parseFrame} from "./wire.js";
 import {CROSSING, Net} from "./net.js";
-import {keepLooks, restoreLooks} from "./looks.js";
+import {keepLooks, layRows, readInk, restoreLooks, themeOf} from "./looks.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
-import {Shaper} from "./shape.js";
+import {Shaper} from "./propose.js";
 import {Speaker} from "./speak.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
 import {paintHull, paintOverlay} from "./paint.js";
-import {readInk, themeOf} from "./theme.js";
-import {openPalette} from "./palette.js";
+import {makeBar, openPalette} from "./bar.js";
 import {placeBubble} from "./bubble.js";
-import {makeBar} from "./bar.js";
 import {choose, find, goTo, stepCurve, stepPoint} from "./go.js";
-import {layRows} from "./layout.js";
 
 /** @typedef {import("./view.js").Kind} Kind */
 /** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */

@@ -1,9 +1,8 @@
 // What is drawn, and in which order: the hull below, what lives above.
 
-import {evaluate, middleMovement, normalMovement} from "./hermite.js";
-import {combScale, inflections, teeth} from "./comb.js";
+import {combScale, evaluate, inflections, middleMovement, normalMovement, teeth} from "./hermite.js";
 import {drawLabels} from "./labels.js";
-import {drawBeside, drawPicture} from "./drop.js";
+import {drawBeside, drawPicture} from "./files.js";
 import {diamond, drawHandles} from "./handles.js";
 
 /** @typedef {import("./view.js").View} View */

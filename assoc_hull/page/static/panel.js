@@ -2,22 +2,17 @@
 
 import {ACTIONS, keyWords} from "./actions.js";
 import {button} from "./asker.js";
-import {inflections} from "./comb.js";
-import {arcLength} from "./hermite.js";
+import {arcLength, inflections} from "./hermite.js";
 import {farthest} from "./paint.js";
-import {Beside} from "./drop.js";
-import {PointTable, Problems} from "./lists.js";
+import {Beside, Files} from "./files.js";
+import {LineChoice, PointActs, PointTable, Problems} from "./lists.js";
 import {Fairing} from "./fair.js";
-import {Files} from "./files.js";
 import {Numbers} from "./numbers.js";
-import {Past} from "./past.js";
+import {Past, WhyPanel} from "./past.js";
 import {Proposal} from "./propose.js";
 import {Vary} from "./vary.js";
-import {WhyPanel} from "./why.js";
 import {CROSSING} from "./net.js";
-import {LineChoice} from "./line_choice.js";
-import {PointActs} from "./point_acts.js";
-import {millimetres, signed} from "./units.js";
+import {millimetres, signed, typedNumber} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
 
@@ -86,7 +81,7 @@ export class Panel {
     field.inputMode = "decimal";
     field.setAttribute("aria-label", i ? "radius of a pull around the girth, m" : "radius of a pull along the length, m");
     field.onchange = () => {
-      const value = Number(field.value.replace(",", ".").trim() || NaN), radius = [...(store.tools.radius ?? [1, 1])];
+      const value = typedNumber(field), radius = [...(store.tools.radius ?? [1, 1])];
       if (!(value > 0 && value < 1000)) this.page.say("A radius is a number of metres above 0, such as 12.5");
       else radius[i] = value;
       store.tools.radius = radius;
@@ -218,7 +213,7 @@ export class Panel {
 
   /** @param {import("./net.js").Point} point */
   #enter(point) {
-    const values = Object.fromEntries([...point.free].map((name) => [name, Number(this.fields[AXES.indexOf(name)].value.replace(",", ".").trim() || NaN)]));
+    const values = Object.fromEntries([...point.free].map((name) => [name, typedNumber(this.fields[AXES.indexOf(name)])]));
     const {tools} = this.page.store;
     const wrong = Object.entries(values).find(([, value]) => !Number.isFinite(value));
     if (wrong) return this.page.say(`${wrong[0]} is no number of metres: type one such as 6.953`);
