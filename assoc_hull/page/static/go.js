@@ -5,7 +5,6 @@ import {alongCurve} from "./lists.js";
 /** @typedef {import("./page.js").Page} Page */
 
 const NEAR = 60; // pixels for a metre, at least, where a finding is looked at
-const ROOM = 40; // px: nearer to the border a point counts as not seen
 
 /** Chooses, says what it is, and brings it into the picture. @param {Page} page @param {number | null} row @param {number | null} curve */
 export function choose(page, row, curve) {
@@ -22,7 +21,7 @@ function bring(page) {
   const row = selection.row ?? (selection.curve === null ? undefined : net?.rowsOf.get(selection.curve)?.[0]), place = row === undefined ? undefined : page.store.placeOf(row);
   if (!place || view.kind === "wire") return;
   const [x, y] = view.atPlace(place);
-  if (x < ROOM || y < ROOM || x > view.width - ROOM || y > view.height - ROOM) view.pan(view.width / 2 - x, view.height / 2 - y);
+  if (x < 9 || y < 9 || x > view.width - 9 || y > view.height - 9) view.pan(view.width / 2 - x, view.height / 2 - y);
   page.store.changed("overlay");
 }
 

@@ -24,7 +24,7 @@ class Places {
   put(text, x, y, align, colour, halo = false) {
     const {g, view} = this, w = g.measureText(text).width;
     const left = align === "center" ? x - w / 2 : align === "right" ? x - w : x;
-    if (left < 2 || left + w > view.width - 2 || y < 26 || y > view.height - 6) return false;
+    if (left < 2 || left + w > view.width - 2 || y < 30 || y > view.height - 6) return false;
     for (const [l, r, t] of this.taken) if (left < r + 4 && left + w > l - 4 && Math.abs(y - t) < HIGH) return false;
     this.taken.push([left, left + w, y]);
     g.textAlign = "left";
@@ -102,7 +102,7 @@ function stationsAbove(view, places, ink) {
   for (const {full, name, at: [x, y]} of found) {
     // One that ends outside the picture is named along itself.
     if (y < 20 || y > view.height) continue;
-    if ([9, 21].some((above) => places.put(name, x, Math.max(y - above, 28), "center", ink.sections))) written.add(full);
+    if ([9, 21].some((above) => places.put(name, x, Math.max(y - above, 30), "center", ink.sections))) written.add(full);
   }
   // Those that have no room above, as where they end at one transom, are named along the lines.
   along(view, places, ink, written, 3 * written.size < found.length ? LEAST_GAP : FREE_GAP);

@@ -107,8 +107,6 @@ export class Problems extends Asker {
   }
 }
 
-const TITLES = /** @type {Record<string, string>} */ ({sections: "Sections", frames: "Frames", waterlines: "Waterlines", buttocks: "Buttocks", diagonals: "Diagonals", boundary: "Boundaries"});
-
 export class LineChoice {
   /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
@@ -130,7 +128,7 @@ export class LineChoice {
       const families = new Map();
       for (const line of [...net.lines].sort((p, q) => (p.offset ?? 0) - (q.offset ?? 0))) {
         const group = families.get(line.family) ?? document.createElement("optgroup");
-        group.label = TITLES[line.family] ?? line.family;
+        group.label = line.family[0].toUpperCase() + line.family.slice(1);
         line.curves.forEach((id, i) => group.append(new Option(line.names[i], String(id))));
         families.set(line.family, group);
       }

@@ -6,21 +6,19 @@
 
 /** @param {Page} page */
 export function keepLooks(page) {
-  const {show, tools, gain, squeeze, theme} = page.store;
-  page.options.keep("looks", JSON.stringify({show, how: tools.how, fine: tools.fine, fair: tools.fair, fairShapes: tools.fairShapes, pinned: tools.pinned, gain, squeeze, theme}));
+  const {show, tools: {radius, ...tools}, gain, squeeze, theme} = page.store;
+  page.options.keep("looks", JSON.stringify({show, ...tools, gain, squeeze, theme}));
 }
 
 /** @param {Page} page */
 export function restoreLooks(page) {
   const {store} = page;
   try {
-    const {show, how, fine, fair, fairShapes, pinned, gain, squeeze, theme} = JSON.parse(page.options.kept("looks") ?? "{}");
+    const {show, how, fairShapes, gain, squeeze, theme, ...kept} = JSON.parse(page.options.kept("looks") ?? "{}");
     for (const name of /** @type {(keyof Store["show"])[]} */ (Object.keys(store.show))) if (typeof show?.[name] === "boolean") store.show[name] = show[name];
     if (how === "pull" || how === "move") store.tools.how = how;
-    store.tools.fine = fine === true;
-    store.tools.fair = fair === true;
+    for (const name of /** @type {const} */ (["fine", "fair", "pinned"])) store.tools[name] = kept[name] === true;
     store.tools.fairShapes = fairShapes !== false;
-    store.tools.pinned = pinned === true;
     if (gain > 0 && gain < 100) store.gain = gain;
     if ([1, 2, 5, 10].includes(squeeze)) store.squeeze = squeeze;
     if (["auto", "light", "dark"].includes(theme)) store.theme = theme;

@@ -125,7 +125,6 @@ export function farthestDrawn(frame, published) {
 export function paintOverlay(view, ink) {
   const g = view.context(view.upper), {store} = view, {net, overlay, selection, hover} = store;
   view.stale.overlay = false;
-  view.note.textContent = noteOf(view);
   if (!net) return;
   g.lineJoin = g.lineCap = "round";
   drawBeside(view, g, ink.soft);
@@ -137,6 +136,7 @@ export function paintOverlay(view, ink) {
   if (chosen !== null) {
     stroke(view, g, chosen, ink.ink, view.kind === "wire" ? 1.4 : 2);
   }
+  view.note.textContent = noteOf(view); // the magnification is known only now
   if (view.kind === "wire") return;
   if (store.show.combs) for (const id of combed(view)) drawComb(view, g, ink, id, id === chosen);
   drawHandles(view, g, ink);
@@ -232,11 +232,14 @@ function drawSpikes(view, g, ink, frame, moved, top) {
     const line = net?.lineOf(id), by = moved.get(id), old = curves.get(id);
     if (!line || !by || !old || !view.shows(line)) continue;
     for (const given of view.sides(line) ?? [0]) {
+      let last = [-99, -99];
       for (let p = 0; p < by.length; p += 3) {
         const way = by.subarray(p, p + 3);
         if (Math.hypot(way[0], way[1], way[2]) < LEAST_MOVED) continue;
         const side = given || view.side(old.xyz[p]);
         const [x, y] = view.at(old.xyz[p], old.xyz[p + 1], old.xyz[p + 2], side), [dx, dy] = view.seen(way, side);
+        if (Math.hypot(x - last[0], y - last[1]) < 7) continue; // a hedge shows nothing
+        last = [x, y];
         g.moveTo(x, y);
         g.lineTo(x + view.magnified * dx, y + view.magnified * dy);
       }
