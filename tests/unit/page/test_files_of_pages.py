@@ -36,7 +36,7 @@ def test_a_full_disk_is_told_where_a_file_is_written(
     monkeypatch: pytest.MonkeyPatch, shipped: Shipped
 ) -> None:
     """Nobody is told to give another place for a file whose place he did not choose."""
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: shutil._ntuple_diskusage(1, 1, 0))  # type: ignore[attr-defined]
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: shutil._ntuple_diskusage(1, 1, 0))
     monkeypatch.setattr(Path, "read_bytes", full)
     with pytest.raises(BadInputError, match=r"no room to write .*\.csv .*make room there"):
         write_export(shipped("wigley"), "csv")

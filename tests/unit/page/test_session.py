@@ -13,7 +13,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.drag import Drag, Live
-from assoc_hull.page import session as session_module
+from assoc_hull.page.fairing import ghost_of_edits
 from assoc_hull.page.messages import (
     Apply,
     Begin,
@@ -424,15 +424,14 @@ def test_an_answer_that_takes_long_keeps_no_other_waiting(
 ) -> None:
     """A preview that is given up for a newer one is not shown, and hydrostatics come meanwhile."""
     going, seen = threading.Event(), threading.Event()
-    honest = session_module.ghost_of_edits
 
     def slow(hull: ah.Hull, edits: Any) -> Any:
         if edits[0]["d"] == 0.5:
             seen.set()
             assert going.wait(30.0)
-        return honest(hull, edits)
+        return ghost_of_edits(hull, edits)
 
-    monkeypatch.setattr(session_module, "ghost_of_edits", slow)
+    monkeypatch.setattr("assoc_hull.page.session.ghost_of_edits", slow)
     page = Page(session).enter()
     page.ask(Preview(1, [{"op": "pull", "point": POINT, "d": 0.5}]))
     assert seen.wait(30.0)
