@@ -171,12 +171,12 @@ function drawHeld(view, g, ink) {
   g.font = "600 12px system-ui, sans-serif";
   g.textBaseline = "middle";
   const text = `${held.amount >= 0 ? "+" : "−"}${(1e3 * Math.abs(held.amount)).toFixed(1)} mm`, w = g.measureText(text).width;
-  const left = x + 16 + w < view.width ? x + 16 : x - 16 - w;
+  const left = x + 16 + w < view.width ? x + 16 : x - 16 - w, at = y < 46 ? y + 18 : y - 14;
   g.lineWidth = 4;
   g.strokeStyle = ink.paper;
-  g.strokeText(text, left, y - 14);
+  g.strokeText(text, left, at);
   g.fillStyle = ink.hot;
-  g.fillText(text, left, y - 14);
+  g.fillText(text, left, at);
 }
 
 /** @param {import("./store.js").Held} held @returns {number[][]} */

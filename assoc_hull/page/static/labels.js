@@ -7,7 +7,7 @@ import {pathsOf} from "./hit.js";
 /** @typedef {import("./net.js").Line} Line */
 
 const LETTERS = "11px system-ui, sans-serif", HIGH = 12;
-const COLUMNS = 48, LEAST_GAP = 5; // px
+const COLUMNS = 48, LEAST_GAP = 5, FREE_GAP = 9; // px
 
 class Places {
   /** @param {CanvasRenderingContext2D} g @param {View} view @param {Record<string, string>} ink */
@@ -24,7 +24,7 @@ class Places {
   put(text, x, y, align, colour, halo = false) {
     const {g, view} = this, w = g.measureText(text).width;
     const left = align === "center" ? x - w / 2 : align === "right" ? x - w : x;
-    if (left < 2 || left + w > view.width - 2 || y < 26 || y > view.height - 6) return false;
+    if (left < 2 || left + w > view.width - 2 || y < 30 || y > view.height - 6) return false;
     for (const [l, r, t] of this.taken) if (left < r + 4 && left + w > l - 4 && Math.abs(y - t) < HIGH) return false;
     this.taken.push([left, left + w, y]);
     g.textAlign = "left";
@@ -55,9 +55,12 @@ export function drawLabels(view, g, ink) {
   places.left = left;
   const foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
   if (view.kind === "body") {
+    const names = [...of("buttocks")].reverse();
+    for (const side of [-1, 1]) for (const line of names) places.put(short(line.name), view.at(0, line.offset ?? 0, 0, side)[0], foot + 12, "center", ink.soft, true);
     stationsAbove(view, places, ink);
-    for (const [text, side] of /** @type {[string, number][]} */ ([["aft", -1], ["fore", 1]])) places.put(text, view.at(0, y1 / 2, 0, side)[0], foot + 14, "center", ink.soft);
+    if (view.at(0, 0, z0, 1)[1] < view.height) for (const [text, side] of /** @type {[string, number][]} */ ([["aft", -1], ["fore", 1]])) places.put(text, view.at(0, y1 / 2, 0, side)[0], foot + 26, "center", ink.soft);
   } else {
+    places.put("ST", left, foot + 12, "right", ink.soft);
     places.put("AP", view.at(0, 0, 0, 1)[0], foot + 26, "center", ink.soft);
     places.put("FP", view.at(ship.length, 0, 0, 1)[0], foot + 26, "center", ink.soft);
     // Whole stations first, so that halves give way.
@@ -65,14 +68,21 @@ export function drawLabels(view, g, ink) {
     for (const line of stations) places.put(short(line.name), view.at(line.offset ?? 0, 0, 0, 1)[0], foot + 12, "center", ink.soft);
   }
   if (view.kind === "half") {
-    places.put("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
+    places.put("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft, true);
+    column(view, places, "BTK", of("buttocks").map((line) => ({name: short(line.name), y: view.at(0, line.offset ?? 0, 0, 1)[1]})), ink);
     along(view, places, ink);
   } else {
-    places.put("DWL", left, view.at(0, 0, ship.draught, 1)[1], "right", ink.water);
-    places.put("BL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
-    for (const line of of("waterlines")) places.put(short(line.name), left, view.at(0, 0, line.offset ?? 0, 1)[1], "right", ink.soft);
+    places.put("DWL", left, view.at(0, 0, ship.draught, 1)[1], "right", ink.water, true);
+    places.put("BL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft, true);
+    column(view, places, "WL", of("waterlines").map((line) => ({name: short(line.name), y: view.at(0, 0, line.offset ?? 0, 1)[1]})), ink);
     if (view.kind === "profile") along(view, places, ink);
   }
+}
+
+/** Names at the left, with their family above the highest. @param {View} view @param {Places} places @param {string} family @param {{name: string, y: number}[]} rows @param {Record<string, string>} ink */
+function column(view, places, family, rows, ink) {
+  const written = rows.filter(({name, y}) => places.put(name, places.left, y, "right", ink.soft, true)).map(({y}) => y);
+  if (written.length) places.put(family, places.left, Math.min(...written) - HIGH - 1, "right", ink.soft, true);
 }
 
 /** @param {View} view @param {Places} places @param {Record<string, string>} ink */
@@ -90,18 +100,20 @@ function stationsAbove(view, places, ink) {
   found.sort((p, q) => Number(!/^\d+$/.test(p.name)) - Number(!/^\d+$/.test(q.name)));
   const written = new Set();
   for (const {full, name, at: [x, y]} of found) {
-    if ([9, 21].some((above) => places.put(name, x, Math.max(y - above, 28), "center", ink.sections))) written.add(full);
+    // One that ends outside the picture is named along itself.
+    if (y < 20 || y > view.height) continue;
+    if ([9, 21].some((above) => places.put(name, x, Math.max(y - above, 30), "center", ink.sections))) written.add(full);
   }
-  // Where most have no room above, as those that end at one transom, they are named along the lines.
-  if (3 * written.size < found.length) along(view, places, ink, written);
+  // Those that have no room above, as where they end at one transom, are named along the lines.
+  along(view, places, ink, written, 3 * written.size < found.length ? LEAST_GAP : FREE_GAP);
 }
 
 /**
  * Labels on the curves of the view's own family, each where its neighbours are farthest away; none
  * where they are so near that one could not tell whose it is.
- * @param {View} view @param {Places} places @param {Record<string, string>} ink @param {Set<string>} [written]
+ * @param {View} view @param {Places} places @param {Record<string, string>} ink @param {Set<string>} [written] @param {number} [least]
  */
-function along(view, places, ink, written = new Set()) {
+function along(view, places, ink, written = new Set(), least = LEAST_GAP) {
   const {net} = view.store, paths = pathsOf(view);
   if (!net) return;
   /** @type {{name: string, colour: string, x: number, y: number, gap: number}[]} */
@@ -112,7 +124,7 @@ function along(view, places, ink, written = new Set()) {
     const met = paths.flatMap(({id, path}) => crossings(path, x).map((y) => ({id, y}))).sort((p, q) => p.y - q.y);
     met.forEach(({id, y}, i) => {
       const line = net.lineOf(id), gap = Math.min(y - (met[i - 1]?.y ?? -Infinity), (met[i + 1]?.y ?? Infinity) - y);
-      if (line && line.family !== "boundary" && gap > LEAST_GAP) spots.push({name: line.name, colour: ink[line.family] || ink.ink, x, y, gap: Math.min(gap, 40)});
+      if (line && line.family !== "boundary" && gap > least) spots.push({name: line.name, colour: ink[line.family] || ink.ink, x, y, gap: Math.min(gap, 40)});
     });
   }
   for (const {name, colour, x, y} of spots.sort((p, q) => q.gap - p.gap)) {

@@ -1,8 +1,10 @@
-// Two lists in the panel: the points of the chosen curve, and what is wrong with the hull.
+// What is chosen, and listed: all lines by family, to choose one without knowing where it lies; the points
+// of the chosen line; what can be done with the chosen point beside dragging it; what is wrong with the hull.
 
-import {link, paragraph} from "./asker.js";
+import {Asker, button, link, paragraph} from "./asker.js";
 
 /** @typedef {import("./page.js").Page} Page */
+
 /** @typedef {{kind: string, object: string, place: number[] | null, text: string}} Finding */
 
 /** Points of a curve in their order along it. @param {import("./store.js").Store} store @param {number} id @returns {number[]} */
@@ -37,9 +39,7 @@ export class PointTable {
     if (!open || key === this.shown) return;
     this.shown = key;
     if (id === null || !store.net) {
-      const words = document.createElement("p");
-      words.textContent = "Click a line: its points are listed here.";
-      return this.box.replaceChildren(words);
+      return this.box.replaceChildren(paragraph("Click a line: its points are listed here."));
     }
     const table = document.createElement("table"), caption = table.createCaption(), head = table.createTHead().insertRow();
     caption.textContent = `Points of ${store.net.curveName(id)}, m`;
@@ -71,17 +71,11 @@ export class PointTable {
 }
 
 /** What the library finds wrong; asked for, as it takes a moment on a large net. */
-export class Problems {
+export class Problems extends Asker {
   /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
-    this.page = page;
-    this.list = document.createElement("div");
-    const button = document.createElement("button");
-    button.type = "button";
-    button.textContent = "Check the hull";
-    button.onclick = () => this.ask();
-    box.append(button, this.list);
-    this.asked = 0;
+    super(page, box);
+    box.append(button("Check the hull", () => this.look()), this.words, this.list);
     this.state = -1;
     this.shown = "";
     /** @type {Finding[] | null} */
@@ -93,28 +87,25 @@ export class Problems {
     box.closest("details")?.querySelector("summary")?.append(this.count);
   }
 
-  ask() { this.asked = this.page.request({t: "check"}); }
+  look() { this.ask({t: "check"}, "Looking …"); }
 
   /** @param {{id: number, value: Finding[] | null}} message */
   answer(message) {
     if (message.id !== this.asked || !message.value) return;
     this.found = message.value;
+    this.words.textContent = "";
     this.state = this.page.store.state;
     this.page.say(this.#words());
     this.render();
   }
 
-  /** The server has gone: what was found is of another session. */
-  lost() { this.asked = this.state = -1; }
+  lost() {
+    super.lost();
+    this.state = -1;
+  }
 
   /** @param {any} _message */
   done(_message) { this.refusal = null; }
-
-  /** @param {any} _message */
-  refused(_message) { return false; }
-
-  /** @param {any} _message */
-  problem(_message) { return false; }
 
   #words() {
     const n = this.found?.length ?? 0;
@@ -132,5 +123,37 @@ export class Problems {
     const name = refused?.row == null ? "" : store.net?.points.get(refused.row)?.name ?? "", first = refused?.text.split("\n")[0] ?? "";
     const last = refused ? [paragraph("Refused last:"), name ? link(first, () => this.page.goTo(name, refused.place)) : paragraph(first)] : [];
     this.list.replaceChildren(...words, ...rows, ...last);
+  }
+}
+
+export class LineChoice {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    this.page = page;
+    this.select = document.createElement("select");
+    this.select.setAttribute("aria-label", "the chosen line");
+    this.select.onchange = () => {
+      if (this.select.value) page.choose(null, Number(this.select.value));
+    };
+    this.shown = /** @type {import("./net.js").Net | null} */ (null);
+    box.append(this.select);
+  }
+
+  render() {
+    const {net, selection} = this.page.store;
+    if (!net) return;
+    if (net !== this.shown) {
+      this.shown = net;
+      const families = new Map();
+      for (const line of [...net.lines].sort((p, q) => (p.offset ?? 0) - (q.offset ?? 0))) {
+        const group = families.get(line.family) ?? document.createElement("optgroup");
+        group.label = line.family[0].toUpperCase() + line.family.slice(1);
+        line.curves.forEach((id, i) => group.append(new Option(line.names[i], String(id))));
+        families.set(line.family, group);
+      }
+      this.select.replaceChildren(new Option("choose a line …", ""), ...families.values());
+    }
+    const value = selection.curve === null ? "" : String(selection.curve);
+    if (this.select.value !== value) this.select.value = value;
   }
 }

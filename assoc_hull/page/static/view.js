@@ -12,7 +12,7 @@ import {bezier} from "./hermite.js";
 export const TITLES = {body: "Body plan", profile: "Profile", half: "Half-breadth plan", wire: "Wire"};
 const OWN = {body: ["sections", "frames"], profile: ["buttocks"], half: ["waterlines", "diagonals"], wire: []};
 const PLANE = {body: [1, 2], profile: [0, 2], half: [0, 1], wire: [0, 2]};
-const MARGINS = {body: [46, 40, 16, 30], profile: [46, 26, 16, 34], half: [46, 26, 16, 34], wire: [20, 30, 20, 20]};
+const MARGINS = {body: [46, 40, 16, 36], profile: [46, 34, 16, 34], half: [46, 34, 16, 34], wire: [20, 30, 20, 20]};
 const FLAT = 1e-6;
 
 export class View {
@@ -187,6 +187,25 @@ export class View {
     const [u0, u1, v0, v1] = this.extent(), [left, top, right, bottom] = MARGINS[this.kind];
     return {across: Math.max(this.width - left - right, 20) / Math.max(u1 - u0, 1e-6),
       up: Math.max(this.height - top - bottom, 12) / Math.max(v1 - v0, 1e-6)};
+  }
+
+  /** Height at which the whole hull just fills so many pixels of width. @param {number} wide */
+  heightFor(wide) {
+    const [u0, u1, v0, v1] = this.extent(), [left, top, right, bottom] = MARGINS[this.kind];
+    return (wide - left - right) / Math.max(u1 - u0, 1e-6) * (v1 - v0) + top + bottom;
+  }
+
+  /** Brings places into the picture, as large as they fit. @param {ArrayLike<number>} xyz (3n) m */
+  enclose(xyz) {
+    let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
+    for (let i = 0; i + 2 < xyz.length; i += 3) {
+      const [x, y] = this.at(xyz[i], xyz[i + 1], xyz[i + 2], this.side(xyz[i]));
+      [x0, x1, y0, y1] = [Math.min(x0, x), Math.max(x1, x), Math.min(y0, y), Math.max(y1, y)];
+    }
+    if (!(x1 >= x0)) return;
+    const [left, top, right, bottom] = MARGINS[this.kind], across = (this.width - left - right) / Math.max(x1 - x0, 1), up = (this.height - top - bottom) / Math.max(y1 - y0, 1);
+    this.pan((left + this.width - right) / 2 - (x0 + x1) / 2, (top + this.height - bottom) / 2 - (y0 + y1) / 2);
+    this.zoom((left + this.width - right) / 2, (top + this.height - bottom) / 2, Math.min(across, up));
   }
 
   /** Shows all of the hull; views that share an axis agree on it. */
