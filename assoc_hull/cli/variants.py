@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -31,7 +31,7 @@ from assoc_hull.cli.arguments import (
 from assoc_hull.cli.edits import open_to_change
 from assoc_hull.cli.hull_words import edit_words
 from assoc_hull.cli.output import emit, progress
-from assoc_hull.cli.problems import check_other_target, check_target
+from assoc_hull.cli.problems import UsageError, check_other_target, check_target
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import open as open_hull
@@ -239,7 +239,10 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
 
     script: dict[str, Any] = read_script(arguments.script) if arguments.script else {}
     for key in ("set", "layout", "reach"):
-        given = parse_pairs(getattr(arguments, key), key)
+        typed = getattr(arguments, key)
+        given = parse_pairs(typed, key)
+        if key == "set":
+            _require_values(typed)
         if given:
             script[key] = {**_held(script, key, arguments), **given}
     _reach(script, arguments)
@@ -248,6 +251,17 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
         if value is not None:
             script[key] = value
     return script
+
+
+def _require_values(typed: Sequence[str]) -> None:
+    """Refuse ``breadth=+1``: it looks like a change, and values are asked for."""
+    for each in typed:
+        name, _, value = each.partition("=")
+        if value.startswith("+"):
+            raise UsageError(
+                f"--set {each}: {name} takes the new value itself, not a change; add the change "
+                f"to the present value, or write {name}={value[1:]} if that is the value meant"
+            )
 
 
 def _held(script: dict[str, Any], key: str, arguments: argparse.Namespace) -> dict[str, Any]:

@@ -523,7 +523,8 @@ def _unexpected(
             k = int(off[:, i].argmax())
             yield (
                 f"{sections.names[i]} has {own[k, i]:.2f} m2 where its neighbours "
-                f"make one expect {area[k, i]:.2f} m2"
+                f"make one expect {area[k, i]:.2f} m2, at a draught of "
+                f"{planes.height[k]:.3f} m at AP"
             )
 
 

@@ -654,9 +654,9 @@ def _remedy(
         return (
             "at its design draught the hull is sound, so it is the position: too little of the "
             "hull is wet for its lines to tell; take a larger draught, or the numbers with "
-            "on_error='report'"
+            "on_error='report' (--on-error report)"
         )
-    return "mend the hull, or take the numbers with on_error='report'"
+    return "mend the hull, or take the numbers with on_error='report' (--on-error report)"
 
 
 _COEFFICIENTS = ("cb", "cm", "cx", "cp", "cvp", "cw", "cb_lwl", "cp_lwl")

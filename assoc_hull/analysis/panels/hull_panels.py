@@ -199,7 +199,7 @@ def _require_sound(body: Flotation, planes: FloatingPlanes, on_error: str) -> No
     doubts = body.doubts(planes, numbers=False)
     if doubts and on_error == "refuse":
         more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
-        remedy = "mend the hull, or take what comes with on_error='report'"
+        remedy = "mend the hull, or take what comes with on_error='report' (--on-error report)"
         raise BadInputError(doubts[0] + more, _WHERE, remedy)
 
 

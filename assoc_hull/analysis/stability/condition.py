@@ -88,7 +88,7 @@ def doubts_of(body: FloatingBody, planes: FloatingPlanes, on_error: str) -> tupl
     doubts = tuple(body.doubts(planes, numbers=False))
     if doubts and on_error == "refuse":
         more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
-        remedy = "mend the hull, or take the numbers with on_error='report'"
+        remedy = "mend the hull, or take the numbers with on_error='report' (--on-error report)"
         raise BadInputError(doubts[0] + more, _WHERE, remedy)
     return doubts
 

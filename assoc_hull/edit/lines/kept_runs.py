@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 import attrs
 import numpy as np
 
+from assoc_hull.edit.crossings.settle_crossings import one_place
 from assoc_hull.edit.lines.marks import Marks
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.geometry.splines.distance import closest_points
@@ -92,6 +93,7 @@ class KeptRuns:
             slack = state.tolerances.factor * _END
             inside = (at >= run.span[0] - slack) & (at <= run.span[1] + slack)
             found[inside & (away <= state.tolerances.adoption)] = number
+            found[_marks_of_ends(state, run, marks)] = number
         for number in range(len(self.runs)):
             mine = np.flatnonzero(found == number)
             if len(mine):
@@ -138,6 +140,23 @@ class KeptRuns:
 
 
 NO_KEPT_RUNS = KeptRuns()
+
+
+def _marks_of_ends(state: HullState, run: KeptRun, marks: Marks) -> list[int]:
+    """Give the marks that are the crossings at which a run ends.
+
+    A curve that changes beyond the run may pass there a little outside of it.
+    """
+    table, found = state.rows, list[int]()
+    for row in run.rows[[0, -1]].tolist() if len(run.rows) else []:
+        pair = table.curve[row]
+        others = pair[(pair >= 0) & (pair != run.curve)]
+        mine = np.flatnonzero(np.isin(marks.curve, others))
+        step = marks.xyz[mine] - table.xyz[row]
+        away = np.sqrt((step * step).sum(axis=1))
+        if len(mine) and away.min() <= one_place(state):
+            found.append(int(mine[away.argmin()]))
+    return found
 
 
 def _together(mask: np.typing.NDArray[np.bool_]) -> bool:

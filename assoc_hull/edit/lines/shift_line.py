@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+import attrs
 import numpy as np
 
 from assoc_hull.edit.crossings.adopted_points import insert_defining_point
@@ -325,11 +326,26 @@ def recut_line(
     edit.maker.remove_rows([row for row in crossings.tolist() if row not in kept])
     _bring_along(edit, line, known)
     gather_crossings(edit, line, pieces, known)
+    _leave_to_others(edit, [curve for curve, _ in pieces])
     enter_line_plane(edit, line, left.rows())
     edit.pending.curves |= compute_kept_crossings(edit.maker, left)
     _carry(edit, np.array([curve for curve, _ in pieces]), placed)
     _drop_lost(edit, np.array([curve for curve, _ in pieces]), np.array(sorted(kept), np.int64))
     _report(edit, every, np.array([curve for curve, _ in pieces]))
+
+
+def _leave_to_others(edit: Transaction, curves: list[int]) -> None:
+    """Let intersections of pieces forget crossings that went over to another piece.
+
+    Else each would take them, of equal sense on the same line, to where the piece is now.
+    """
+    state = edit.state
+    for curve in curves:
+        meets: CurveIntersections = state.curves.meets[curve]
+        others = (meets.row >= 0) & ~(state.rows.curve[meets.row] == curve).any(axis=1)
+        if others.any():
+            row = np.where(others, -1, meets.row)
+            edit.journal.set(state.curves.meets, [curve], [attrs.evolve(meets, row=row)])
 
 
 def _report(edit: Transaction, before: IntArray, curves: IntArray) -> None:

@@ -25,7 +25,7 @@ from assoc_hull.io.digitised.body_plan import BodyPlanRules, is_body_plan, read_
 from assoc_hull.io.importing.judge import finding_of, judge, verdict_notes
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.own_files import read_own_file
-from assoc_hull.io.importing.soundness import greatest_note, open_net_note
+from assoc_hull.io.importing.soundness import deepest_note, greatest_note, open_net_note
 from assoc_hull.io.importing.stated import stated_places
 from assoc_hull.io.importing.verdict import ImportFinding, Verdict, grouped, require_sound
 from assoc_hull.io.lines.ship_frame import ShipFrame
@@ -115,7 +115,8 @@ def _import(path: Path, wanted: ImportOptions, tell: Tell) -> tuple[HullState, I
     mine = (*report.adoption.notes, *(f"{key}: made, since both lines end there" for key in made))
     lcb = (*_place_of_lcb(state, report.frame), *open_net_note(state))
     if not restored:
-        lcb = (*lcb, *greatest_note(state, _noise(state, report.table)))
+        noise = _noise(state, report.table)
+        lcb = (*lcb, *greatest_note(state, noise), *deepest_note(state, noise))
     notes = (*verdict_notes(report.notes, verdict), *lcb, *mine)
     adoption = attrs.evolve(report.adoption, notes=notes)
     return state, attrs.evolve(report, verdict=verdict, adoption=adoption, own_notes=(*lcb, *mine))

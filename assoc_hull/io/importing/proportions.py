@@ -138,7 +138,10 @@ def _floating(state: HullState, found: Findings) -> Hydrostatics | None:
             what = f"{doubt}: hydrostatics are refused; mend the line, or draw what is missing"
             found.fault("open net", "the net", what)
         elif doubt in every:  # other notes tell how the hull was taken, and refuse nothing
-            what = f"{doubt}: check these numbers; hydrostatics need on_error='report'"
+            what = (
+                f"{doubt}: check these numbers; hydrostatics need on_error='report' "
+                "(--on-error report)"
+            )
             found.suspect("doubtful numbers", "the net", what)
     return record
 

@@ -26,7 +26,15 @@ from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import CurveIntersections, HullState
 from assoc_hull.surface.cells.net_faces import sound_cells
 
-__all__ = ["STUMBLES", "examine_net", "greatest_note", "look", "open_net_note", "sampled_places"]
+__all__ = [
+    "STUMBLES",
+    "deepest_note",
+    "examine_net",
+    "greatest_note",
+    "look",
+    "open_net_note",
+    "sampled_places",
+]
 
 STUMBLES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """What numerics raise over a hull that is none; errors of this package are among them."""
@@ -357,6 +365,29 @@ def greatest_note(state: HullState, noise: float) -> tuple[str, ...]:
     )
     rest = f"; and {len(passed) - _NAMED} more, by less" if len(passed) > _NAMED else ""
     return (f"broader between given points than at the greatest of them: {some}{rest}",)
+
+
+def deepest_note(state: HullState, noise: float) -> tuple[str, ...]:
+    """Tell which sections run lower between their points than at any of them, as under a flat."""
+    passed = []
+    book = AddressBook(state)
+    for curve in state.live("curves").tolist():
+        if state.family(state.line_of(curve)).name != "sections":
+            continue
+        spline = state.spline(curve)
+        places = sample(spline, _FINE)[1]
+        lowest, least = places[int(places[:, 2].argmin())], float(spline.xyz[:, 2].min())
+        if least - lowest[2] > noise:
+            passed.append((least - float(lowest[2]), book.curve_name(curve), least, _at(lowest)))
+    if not passed:
+        return ()
+    passed.sort(reverse=True)
+    some = "; ".join(
+        f"{name} by {1e3 * under:.1f} mm under z = {least:.6g} m, at {place}"
+        for under, name, least, place in passed[:_NAMED]
+    )
+    rest = f"; and {len(passed) - _NAMED} more, by less" if len(passed) > _NAMED else ""
+    return (f"lower between given points than at the lowest of them: {some}{rest}",)
 
 
 def _examine_cells(state: HullState, found: Findings, drawn: bool) -> None:

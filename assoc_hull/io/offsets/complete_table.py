@@ -598,12 +598,12 @@ def _drawn_ends(table: OffsetTable, full: OffsetTable, completion: Completion) -
             continue
         part = float(over[most]) / full.length
         number = "first" if row == 0 else "last"
+        other = ", or a transom by lines, a mesh or a surface" if row == 0 else ""
         yield (
             f"assumed: {name}: the table: its {number} station, x = {table.x[row]:.6g} m, has "
             f"breadth and no station stands {way} it: waterlines are drawn on to end up to "
             f"{part * table.length:.4g} m ({part:.2g} Lpp) {way} it, at z = {table.z[most]:.4g} m; "
-            f"to choose their ends give one more station {side} with 0 where they end, or a "
-            "transom by lines, a mesh or a surface"
+            f"to choose their ends give one more station {side} with 0 where they end{other}"
         )
 
 

@@ -149,10 +149,14 @@ def _rows(sheet: Sheet, lines: Sequence[LineReport]) -> None:
         _row(sheet, line, y, [min(each, left + wide) for each in at], (left, left + wide))
 
 
+_LEAST_DECADE = 0
+"""The scale reaches 1 mm at least: what is below a thousandth of that is the last bit."""
+
+
 def _decades(lines: Sequence[LineReport]) -> tuple[int, int]:
     """Give the powers of ten (mm) between which deviations and tolerances are drawn."""
     most = max(max(each.deviation, 1e-9) for each in lines)
-    last = int(np.ceil(np.log10(1e3 * most) + 1e-9))
+    last = max(int(np.ceil(np.log10(1e3 * most) + 1e-9)), _LEAST_DECADE)
     return last - 4, last
 
 
@@ -228,6 +232,10 @@ def _courses(sheet: Sheet, view: View, lines: Sequence[PlotLine]) -> None:
             sheet.line(view.on_paper(points), pen, f"{view.name}/{line.name}")
 
 
+_SEEN = 1e-7
+"""What lies within this (m) of its line has no name beside its dot."""
+
+
 def _spots(sheet: Sheet, view: View, lines: Sequence[LineReport], most: float) -> None:
     """Draw the largest deviation of each curve as a dot, as large as its root; name the worst."""
     factor = sheet.paper.factor
@@ -236,7 +244,7 @@ def _spots(sheet: Sheet, view: View, lines: Sequence[LineReport], most: float) -
         spot = view.on_paper(np.array([each.place]))
         wide = max(0.4, 2.4 * float(np.sqrt(each.deviation / most)))
         sheet.dots(spot, FAMILY_COLOURS.get(each.group, "#444444"), wide, f"spot/{each.curve}")
-    for each in order[:_NAMED]:
+    for each in [line for line in order if line.deviation > _SEEN][:_NAMED]:
         x, y = view.on_paper(np.array([each.place]))[0].tolist()
         words = f"{each.line} {1e3 * each.deviation:.3g}"
         for off in (2.0, -2.0, 4.0, -4.0, 6.0, -6.0):
