@@ -59,7 +59,7 @@ def static_files() -> Mapping[str, tuple[bytes, str]]:
         ending = each.name.rpartition(".")[2]
         if ending in _TYPES:
             found[each.name] = each.read_bytes(), _TYPES[ending]
-    found["colours.css"] = family_colours().encode(), _TYPES["css"]
+    found["page.css"] = (found["page.css"][0] + family_colours().encode(), _TYPES["css"])
     return found
 
 

@@ -1,7 +1,7 @@
 // The table of all actions: what they are called, by which keys, whether they can be done now. Buttons,
 // the palette and the sheet of keys read it. And the keys: actions, and arrows that nudge; a burst is one edit.
 
-import {showChosen} from "./go.js";
+import {showChosen} from "./lists.js";
 import {passes, pin, remove} from "./point_acts.js";
 
 /** @typedef {import("./page.js").Page} Page */

@@ -1,7 +1,7 @@
 // Fairing: where the hull is wavy, and a window of it that is faired with a noise that a slider sets.
 
 import {Asker, button, link, paragraph} from "./asker.js";
-import {curveOf} from "./go.js";
+import {curveOf} from "./lists.js";
 import {costWords} from "./propose.js";
 import {millimetres} from "./units.js";
 

@@ -1,6 +1,6 @@
 // Pointers on a view: hover, choose, drag a point, pan, zoom, turn the wire.
 
-import {curveThrough, nearestCurve, nearestPoint} from "./hit.js";
+import {curveThrough, nearestCurve, nearestPoint} from "./view.js";
 
 /** @typedef {import("./view.js").View} View */
 /** @typedef {import("./store.js").Store} Store */

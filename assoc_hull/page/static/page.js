@@ -8,13 +8,12 @@ import {keepLooks, layRows, readInk, restoreLooks, themeOf} from "./looks.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
 import {Shaper} from "./propose.js";
-import {Speaker} from "./speak.js";
+import {Speaker, placeBubble} from "./said.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
 import {paintHull, paintOverlay} from "./paint.js";
 import {makeBar, openPalette} from "./bar.js";
-import {placeBubble} from "./bubble.js";
-import {choose, find, goTo, stepCurve, stepPoint} from "./go.js";
+import {choose, find, goTo, stepCurve, stepPoint} from "./lists.js";
 
 /** @typedef {import("./view.js").Kind} Kind */
 /** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */

@@ -1,9 +1,8 @@
 // What is drawn, and in which order: the hull below, what lives above.
 
 import {combScale, evaluate, inflections, middleMovement, normalMovement, teeth} from "./hermite.js";
-import {drawLabels} from "./labels.js";
+import {diamond, drawHandles, drawLabels} from "./marks.js";
 import {drawBeside, drawPicture} from "./files.js";
-import {diamond, drawHandles} from "./handles.js";
 
 /** @typedef {import("./view.js").View} View */
 /** @typedef {import("./wire.js").Curve} Curve */

@@ -73,7 +73,7 @@ export class PointActs {
     this.steps = [-1, 1].map((sign) => button(`${sign < 0 ? "−" : "+"}1 mm`, () => page.keys.nudge(sign * 1e-3)));
     this.field = document.createElement("input");
     this.field.inputMode = "decimal";
-    this.field.title = "Outward; a minus takes the hull in. Enter pulls by so much, over the radius below.";
+    this.field.title = "Outward; a minus goes inward. Enter pulls, over the radius below.";
     this.field.onkeydown = (event) => {
       if (event.key !== "Enter") return;
       event.preventDefault();

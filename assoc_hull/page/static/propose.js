@@ -42,7 +42,7 @@ export class Proposal extends Asker {
   show(name, ops, draft = false) {
     // Asked once more, as by Enter in the same field: it was seen, and is wanted.
     if (this.ready && !draft && this.what && !this.what.draft && this.what.state === this.page.store.state && JSON.stringify(this.what.ops) === JSON.stringify(ops)) return void this.apply();
-    this.askGhost({t: "preview", ops}, `${name}: looking what follows …${/"fair":true/.test(JSON.stringify(ops)) ? " A fair answer takes some seconds, more the farther it goes; Esc gives up." : ""}`);
+    this.askGhost({t: "preview", ops}, `${name}: looking what follows …${/"fair":true/.test(JSON.stringify(ops)) ? " A fair answer takes some seconds; Esc gives up." : ""}`);
     this.what = {name, ops, state: this.page.store.state, draft};
     this.ready = false;
     this.page.store.changed("panel");
@@ -78,7 +78,7 @@ export class Proposal extends Asker {
     const {refused, notes} = message.value, {ghost, curves} = this.page.store;
     this.ready = !refused.length;
     if (this.ready && !this.what.draft) this.make.scrollIntoView({block: "nearest"});
-    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value, ghost ? farthestDrawn(ghost, curves) : 0)}.`, this.what.draft ? "Nothing is changed yet: click more places, or Enter for the answer; Esc gives up." : "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
+    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value, ghost ? farthestDrawn(ghost, curves) : 0)}.`, this.what.draft ? "Nothing is changed yet: click more places; Enter shows the answer, Esc gives up." : "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
     this.page.say(this.words.textContent);
     this.page.store.changed("panel");
   }

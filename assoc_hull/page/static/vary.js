@@ -45,7 +45,7 @@ export class Vary extends Asker {
 
   all() {
     this.what = "list";
-    this.ask({t: "parameters"}, "Looking for what may be asked; some seconds on a large hull …");
+    this.ask({t: "parameters"}, "Looking; some seconds on a large hull …");
   }
 
   #chosen() { return this.found.find(({name}) => name === this.choice.value); }

@@ -6,7 +6,7 @@ import {test} from "node:test";
 import {ACTIONS, keyName, keyWords} from "./actions.js";
 import {evaluate} from "./hermite.js";
 import {alike} from "./net.js";
-import {Predictor} from "./predict.js";
+import {Predictor} from "./hand.js";
 import {NET, parseFrame} from "./wire.js";
 
 const given = JSON.parse(readFileSync("given.json", "utf8")), raw = readFileSync("net.frame");

@@ -368,7 +368,8 @@ def test_a_variant_is_shown_and_then_made(page: Page, hull: ah.Hull) -> None:
     listed = {each["name"]: each for each in page.text("answer")["value"]}
     breadth = hull.particulars.breadth
     assert abs(listed["breadth"]["value"] - breadth) < 1e-9
-    before, expected = hull.fingerprint, hull.vary(set={"breadth": breadth + 0.2}).hull
+    before, expected = hull.fingerprint, hull.snapshot()
+    expected.vary(set={"breadth": breadth + 0.2}, in_place=True)
     page.ask(Vary(2, {"breadth": breadth + 0.2}))
     ghost, words = page.frame(FrameKind.GHOST), page.text("answer")["value"]
     assert hull.fingerprint == before
