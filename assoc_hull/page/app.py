@@ -59,7 +59,7 @@ def static_files() -> Mapping[str, tuple[bytes, str]]:
         ending = each.name.rpartition(".")[2]
         if ending in _TYPES:
             found[each.name] = each.read_bytes(), _TYPES[ending]
-    found["colours.css"] = family_colours().encode(), _TYPES["css"]
+    found["page.css"] = (found["page.css"][0] + family_colours().encode(), _TYPES["css"])
     return found
 
 
@@ -164,7 +164,8 @@ def make_app(session: Session, token: str, port: int, visitors: Visitors) -> App
         async for part in request.stream():
             body += part
             if len(body) > MOST_BYTES:
-                return Answer("the file is too large", 413, about, "text/plain")
+                most = f"it is too large: {MOST_BYTES >> 20} MiB at most are read"
+                return JSONResponse({"problem": most}, 413, about)
         name = request.query_params.get("name", "")
         async with reading:  # one at a time: a drag goes on meanwhile
             found = await asyncio.to_thread(_told_of, bytes(body), name)

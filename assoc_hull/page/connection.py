@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from assoc_hull.errors import BadInputError
 from assoc_hull.page.messages import Hello, parse
 from assoc_hull.page.session import Session
-from assoc_hull.page.wire import VERSION
+from assoc_hull.page.wire import VERSION, FrameKind
 
 if TYPE_CHECKING:
     from starlette.websockets import WebSocket
@@ -19,7 +19,10 @@ if TYPE_CHECKING:
 __all__ = ["Connection"]
 
 _PATIENCE = 5.0  # s for the first message
-_POLICY, _TOO_MANY = 1008, 1013  # codes a socket is closed with, RFC 6455
+_POLICY, _TOO_MANY, _AGAIN = 1008, 1013, 1012  # codes a socket is closed with, RFC 6455
+_WAITING = 1000
+"""So many messages that a page does not take end its connection."""
+
 _FOREIGN = 20
 """So many messages that are none end a connection."""
 
@@ -31,12 +34,34 @@ class Connection:
         self.author = ""
         self._socket, self._session, self._token = socket, session, token
         self._loop = asyncio.get_running_loop()
-        self._outgoing: asyncio.Queue[str | bytes] = asyncio.Queue()
+        self._outgoing: asyncio.Queue[str | bytes | list[bytes]] = asyncio.Queue()
+        self._passing: list[bytes] | None = None
+        self._stuck = False
 
     def tell(self, message: str | bytes) -> None:
         """Send a message; from any thread, without waiting."""
         with contextlib.suppress(RuntimeError):  # the loop has ended, and with it the page
-            self._loop.call_soon_threadsafe(self._outgoing.put_nowait, message)
+            self._loop.call_soon_threadsafe(self._line_up, message)
+
+    def _line_up(self, message: str | bytes) -> None:
+        """Put a message in line; one that takes nothing is let go, and is told all when it is back.
+
+        Of what another hand does only the newest frame waits, at the end of the line: a page that
+        is behind skips the others.
+        """
+        if isinstance(message, bytes) and message[1] == FrameKind.THEIRS:
+            if self._passing is not None:
+                self._passing[:] = [message]
+                return
+            self._passing = [message]
+            self._outgoing.put_nowait(self._passing)
+            return
+        self._passing = None
+        if self._outgoing.qsize() < _WAITING:
+            self._outgoing.put_nowait(message)
+        elif not self._stuck:
+            self._stuck = True
+            self._receiver.cancel()
 
     async def run(self) -> None:
         """Serve until the page goes."""
@@ -45,12 +70,19 @@ class Connection:
         if hello is None:
             return
         sender = asyncio.create_task(self._send())
+        self._receiver = asyncio.create_task(self._receive())
         try:
             self._session.submit(self, hello)
-            await self._receive()
+            await asyncio.wait([self._receiver])
         finally:
+            self._receiver.cancel()
             sender.cancel()
             self._session.leave(self)
+        if self._stuck:
+            with contextlib.suppress(TimeoutError, RuntimeError):
+                await asyncio.wait_for(self._close("the page took no message", _AGAIN), 1.0)
+        elif not self._receiver.cancelled():
+            self._receiver.result()
 
     async def _first(self) -> Hello | None:
         """Wait for the first message, and let nobody in without the token."""
@@ -113,6 +145,10 @@ class Connection:
         with contextlib.suppress(RuntimeError):  # it was closed meanwhile
             while True:
                 message = await self._outgoing.get()
+                if isinstance(message, list):
+                    if message is self._passing:
+                        self._passing = None  # a newer one lines up anew
+                    message = message[0]
                 if isinstance(message, str):
                     await self._socket.send_text(message)
                 else:

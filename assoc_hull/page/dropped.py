@@ -11,8 +11,10 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from assoc_hull.edit.shapes import Shapes
 from assoc_hull.errors import AssocHullError
 from assoc_hull.hull.sources import read
+from assoc_hull.model.tables import HullState
 from assoc_hull.page.describe import describe_net
 from assoc_hull.page.wire import Frame, FrameKind, pack
 
@@ -31,20 +33,29 @@ def read_dropped(data: bytes, name: str) -> dict[str, Any]:
     """
     # Only letters that no system takes for a folder; the ending says what it is.
     own = re.sub(r"[^A-Za-z0-9._-]+", "-", name)[-80:].strip("-.") or "file"
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, own)
-        path.write_bytes(data)
-        try:
-            hull = read(path)
-        except AssocHullError as error:
-            return {"problem": str(error).replace(f"{folder}/", "")}
-        state, shapes = hull.state, hull.shapes()
-        none = state.live("rows")[:0]
-        frame = Frame(FrameKind.GHOST, 0, shapes.curves, shapes.spline, none, state.rows.xyz[none])
-        report = str(hull.creation) if hull.definitions else ""
-        hull.close()
+    try:
+        state, shapes, report = _read(data, own)
+    except AssocHullError as error:
+        # No folder of the server is named.
+        return {"problem": re.sub(rf"[^\s']*/{re.escape(own)}", own, str(error))}
+    except OSError as error:
+        why = f"the server cannot keep the file while it reads ({error.strerror})"
+        return {"problem": f"{why}; make room in its temporary folder, or set TMPDIR to another"}
+    none = state.live("rows")[:0]
+    frame = Frame(FrameKind.GHOST, 0, shapes.curves, shapes.spline, none, state.rows.xyz[none])
     net = describe_net(state)
     return {
         "name": own, "report": report[:_LETTERS], "particulars": net["particulars"],
         "lines": net["lines"], "frame": base64.b64encode(pack(frame)).decode(),
     }  # fmt: skip
+
+
+def _read(data: bytes, own: str) -> tuple[HullState, Shapes, str]:
+    """Read it in a folder that is gone afterwards."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, own)
+        path.write_bytes(data)
+        hull = read(path)
+        found = hull.state, hull.shapes(), str(hull.creation) if hull.definitions else ""
+        hull.close()
+    return found

@@ -125,6 +125,8 @@ class Session:
         self._reader = ThreadPoolExecutor(1, "assoc-hull page reader")
         # A surface takes ten seconds to write: no other answer waits for it.
         self._writer = ThreadPoolExecutor(1, "assoc-hull page writer")
+        # A fair answer may take minutes: hydrostatics do not wait for it, nor the next one asked.
+        self._answerer = ThreadPoolExecutor(2, "assoc-hull page answerer")
         self._newest = dict[tuple[Client, type[Message]], int]()
         self._opening = hull.snapshot()
         self._shown = hull.state_number
@@ -175,6 +177,7 @@ class Session:
             self._worker.join()
         self._reader.shutdown(cancel_futures=True)
         self._writer.shutdown(cancel_futures=True)
+        self._answerer.shutdown(wait=False, cancel_futures=True)
 
     # ----------------------------------------------------------------------------------
     # In the worker.
@@ -296,6 +299,9 @@ class Session:
         file = None if path is None else path.name
         _send(client, {"t": "session", "author": client.author, "file": file})
         self._tell_net([client])
+        held = self._gesture
+        if held is not None and held.client is not client:
+            _send(client, {"t": "hold", "author": held.client.author, "row": held.row})
 
     def _sign(self, client: Client, message: Sign) -> None:
         client.author = message.author
@@ -530,8 +536,11 @@ class Session:
         copy, key = self.hull.snapshot(), (client, type(message))
 
         def look() -> None:
-            if self._newest.get(key) == message.id:
-                _answer(client, message.id, job(copy))
+            if self._newest.get(key) != message.id:
+                return
+            found = job(copy)
+            if self._newest.get(key) == message.id:  # nobody has given it up meanwhile
+                _answer(client, message.id, found)
 
         self._newest[key] = message.id
         self._read(client, message, look)
@@ -544,6 +553,8 @@ class Session:
 
         def show(copy: Hull) -> object:
             frame, words = job(copy)
+            if self._newest.get((client, type(message))) != message.id:
+                return words
             client.tell(pack(attrs.evolve(frame, state=number, sequence=message.id)))
             return words
 
@@ -565,7 +576,7 @@ class Session:
             with self._told(client, message):
                 job()
 
-        self._reader.submit(told)
+        (self._answerer if isinstance(message, Preview) else self._reader).submit(told)
 
     def _publish(self, before: int) -> None:
         """Tell everybody what has changed since a state."""

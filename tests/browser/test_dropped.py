@@ -101,3 +101,46 @@ def test_a_picture_is_placed_by_two_clicks(open_page: Open, hull: ah.Hull) -> No
         assert y - v * up == pytest.approx(place[1], abs=1e-9)
     box.get_by_role("button", name="Take it away").click()
     assert hand.ask("p => p.views.profile.picture === null")
+
+
+def test_of_two_files_the_one_dropped_last_is_shown(
+    open_page: Open, hull: ah.Hull, tmp_path: Path
+) -> None:
+    """Also where the first is read after it; one that was given up is not shown at all."""
+    hand = open_page(hull)
+    for name, other in (("one", ah.examples.wigley()), ("two", ah.examples.plain_ship())):
+        other.export(tmp_path / f"{name}.hull.json")
+    hand.ask(
+        "p => { const {upload} = p.options, waits = p.let = []; p.options.upload ="
+        " async (file) => { const found = await upload(file);"
+        " await new Promise(done => waits.push(done)); return found; }; }"
+    )
+    for count, name in enumerate(("one", "two"), 1):
+        drop(hand, f"{name}.hull.json", (tmp_path / f"{name}.hull.json").read_bytes())
+        hand.until("(p, n) => p.let.length === n", count)
+    hand.ask("p => p.let[1]()")
+    hand.until("p => p.store.beside !== null")
+    hand.ask("p => p.let[0]()")
+    hand.settled()
+    box = hand.page.locator("details:has(h2:text-is('Beside'))")
+    assert "two.hull.json" in box.inner_text()
+    drop(hand, "one.hull.json", (tmp_path / "one.hull.json").read_bytes())
+    hand.until("p => p.let.length === 3")
+    box.get_by_role("button", name="Give up").click()
+    hand.ask("p => p.let[2]()")
+    hand.settled()
+    assert hand.ask("p => p.store.beside === null")
+    assert "Nothing is shown beside" in box.inner_text()
+
+
+def test_a_server_that_answers_otherwise_is_told(open_page: Open, hull: ah.Hull) -> None:
+    """With its own words where there are some; not as if it had been silent."""
+    hand = open_page(hull)
+    box = hand.page.locator("details:has(h2:text-is('Beside'))")
+    answer = {"status": 200, "content_type": "application/json", "body": '{"problem": "too large"}'}
+    hand.page.route("**/drop*", lambda route: route.fulfill(**answer))
+    drop(hand, "a.csv", b"1")
+    box.get_by_text("a.csv: too large").wait_for()
+    answer.update(content_type="text/plain", body="no")
+    drop(hand, "a.csv", b"1")
+    box.get_by_text("a.csv: the server answered 200").wait_for()

@@ -126,7 +126,7 @@ def test_marks_of_inflection_are_those_of_the_library(
         zip(shapes.curves.tolist(), inflections(shapes.spline, normals)[0].tolist(), strict=True)
     )
     found = hand.ask(
-        "async (p, wanted) => { const {inflections} = await import('/comb.js');"
+        "async (p, wanted) => { const {inflections} = await import('/hermite.js');"
         " return wanted.map(([id, a, b]) => inflections(p.store.curves.get(id), a, b).length); }",
         [[curve, *plane] for curve, plane in wanted.items()],
     )

@@ -7,9 +7,12 @@ CROSSING = "WL 0.75 x ST 16"
 
 
 def act(hand: Hand, name: str, key: str, edits: int) -> None:
-    """Choose a point, press a key in the drawing, and wait for the edit."""
+    """Choose a point, press a key in the drawing, make what is shown, and wait for the edit."""
     hand.ask("(p, name) => { p.find(name); p.activeView().upper.focus(); }", name)
     hand.page.keyboard.press(key)
+    if key != "Shift+L":  # to pin a point moves nothing
+        hand.page.locator("aside").get_by_text("Enter applies").wait_for()
+        hand.page.keyboard.press("Enter")
     hand.until("(p, n) => p.store.history.edits === n && p.hand.free", edits)
     hand.settled()
     assert hand.shows_what_is_published()

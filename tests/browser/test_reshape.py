@@ -65,3 +65,30 @@ def test_a_reshape_is_given_up_by_escape_and_its_last_place_by_backspace(
     hand.page.keyboard.press("Escape")
     assert hand.ask("p => p.store.shaping === null && p.store.ghost === null")
     assert hull.fingerprint == before
+
+
+def test_a_place_beside_a_crossing_is_taken_as_on_it(open_page: Open, hull: ah.Hull) -> None:
+    """A click on a point of the line gives no second point a hair from it; the answer is taken."""
+    hand = open_page(hull)
+    begun(hand)
+    (place,) = hand.ask("p => p.store.shaping.places")
+    assert place[2] == hand.ask("(p, n) => p.store.places.get(p.store.net.find(n))[2]", POINT)
+
+
+def test_arrows_shape_a_line_without_a_mouse(open_page: Open, hull: ah.Hull) -> None:
+    """The chosen point is the first place; no edit is made, and Ctrl+Z takes back the place."""
+    hand = open_page(hull)
+    hand.ask("(p, name) => p.find(name)", POINT)
+    keyboard = hand.page.keyboard
+    keyboard.press("r")
+    for _ in range(3):
+        keyboard.press("Shift+ArrowLeft")
+    hand.page.locator("aside").get_by_text("click more places").wait_for()
+    places = hand.ask("p => p.store.shaping.places")
+    y = hand.ask("(p, n) => p.store.places.get(p.store.net.find(n))[1]", POINT)
+    assert places[0][1] == pytest.approx(y - 0.03)
+    keyboard.press("Control+z")
+    assert hand.ask("p => p.store.shaping.places.length") == 0
+    keyboard.press("Escape")
+    assert hand.ask("p => p.store.shaping") is None
+    assert hull.history == ()

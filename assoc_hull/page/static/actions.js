@@ -1,9 +1,11 @@
-// The table of all actions: what they are called, by which keys, whether they can be done now.
-// Buttons, keys and the sheet of keys read it.
+// The table of all actions: what they are called, by which keys, whether they can be done now. Buttons,
+// the palette and the sheet of keys read it. And the keys: actions, and arrows that nudge; a burst is one edit.
 
+import {showChosen} from "./lists.js";
 import {passes, pin, remove} from "./point_acts.js";
 
 /** @typedef {import("./page.js").Page} Page */
+
 /** @typedef {{id: string, words: string, keys: string[], label?: (page: Page) => string, pressed?: (page: Page) => boolean, enabled?: (page: Page) => boolean, run: (page: Page) => void}} Action */
 
 const SQUEEZES = [1, 2, 5, 10];
@@ -50,6 +52,7 @@ export const ACTIONS = [
   {id: "delete", words: "Delete the chosen point of a line", keys: ["Delete"], label: () => "Delete", ...remove},
   {id: "reshape", words: "Re-shape the chosen line through places that you click", keys: ["r"], label: () => "Re-shape", enabled: (page) => page.store.selection.curve !== null, run: (page) => page.shaper.start()},
   {id: "fair-shape", words: "Answer re-shapes fairly", keys: ["Shift+r"], label: () => "Fair re-shapes", pressed: (page) => page.store.tools.fairShapes, run: (page) => page.toggleTool("fairShapes")},
+  {id: "pull-by", words: "Pull the chosen point by a number of millimetres", keys: ["g"], enabled: (page) => page.store.selection.row !== null, run: (page) => page.panel.acts.focus()},
   {id: "undo", words: "Undo your last edit", keys: ["Ctrl+z"], label: () => "Undo", enabled: (page) => page.hand.free && page.store.history.undo !== null, run: (page) => page.undo()},
   {id: "redo", words: "Redo what was taken back", keys: ["Ctrl+Shift+z", "Ctrl+y"], label: () => "Redo", enabled: (page) => page.hand.free && page.store.history.redo !== null, run: (page) => page.redo()},
   toggle("combs", "Curvature combs", "k"),
@@ -62,7 +65,7 @@ export const ACTIONS = [
   {id: "compress", words: "Compress lengths by 1, 2, 5, 10", keys: ["c"], label: (page) => page.store.squeeze === 1 ? "Compress" : `Compress × ${page.store.squeeze}`, pressed: (page) => page.store.squeeze !== 1,
     run: (page) => page.compress(SQUEEZES[(SQUEEZES.indexOf(page.store.squeeze) + 1) % SQUEEZES.length])},
   {id: "fit", words: "Show all of the hull", keys: ["0"], label: () => "Fit", run: (page) => page.fit()},
-  {id: "fit-selection", words: "Show what is chosen", keys: ["f"], enabled: (page) => page.store.selection.row !== null || page.store.selection.curve !== null, run: (page) => page.fly(4)},
+  {id: "fit-selection", words: "Show what is chosen", keys: ["f"], enabled: (page) => page.store.selection.row !== null || page.store.selection.curve !== null, run: showChosen},
   {id: "zoom-in", words: "Nearer", keys: ["="], run: (page) => page.zoom(1.25)},
   {id: "zoom-out", words: "Farther", keys: ["_"], run: (page) => page.zoom(0.8)},
   enlarge("body", "1", "Body plan alone, and back"),
@@ -77,12 +80,14 @@ export const ACTIONS = [
   {id: "point-table", words: "Table of the points of the line", keys: ["a"], run: (page) => page.panel.open("Points")},
   {id: "problems", words: "What is wrong with the hull", keys: ["Shift+p"], run: (page) => {
     page.panel.open("Problems");
-    page.panel.problems.ask();
+    page.panel.problems.look();
   }},
   {id: "why", words: "Why the chosen point or line moved last", keys: ["w"], run: (page) => page.panel.open("Why")},
   {id: "history", words: "History: all steps, going back, comparing", keys: ["h"], run: (page) => page.panel.open("History")},
   {id: "hydrostatics", words: "Hydrostatics and sectional areas", keys: ["y"], run: (page) => page.panel.open("Hydrostatics")},
   {id: "fairing", words: "Fairing: the waviest lines, a window", keys: ["Shift+f"], run: (page) => page.panel.open("Fair")},
+  {id: "vary", words: "Vary a named parameter of the whole hull", keys: ["v"], run: (page) => page.panel.open("Vary")},
+  {id: "beside", words: "Show a file or a picture beside the hull", keys: ["o"], run: (page) => page.panel.open("Beside")},
   {id: "export", words: "Write a lines plan, offsets, a drawing", keys: ["x"], run: (page) => page.panel.open("Export")},
   {id: "print", words: "Lines plan to be printed, as PDF", keys: ["Shift+x"], run: (page) => {
     page.panel.open("Export");
@@ -113,4 +118,134 @@ export function actionOf(page, key) {
 export function keyWords(key) {
   if (key === "+") return key;
   return key.split("+").map((part) => /^[a-z]$/.test(part) ? part.toUpperCase() : part).join(" + ");
+}
+
+const STEP = 0.001; // m
+const BURST = 600; // ms
+/** @type {Record<string, [number, number]>} */
+const ARROWS = {ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowRight: [1, 0], ArrowLeft: [-1, 0]};
+
+export class Keys {
+  /** @param {Page} page */
+  constructor(page) {
+    this.page = page;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.timer = undefined;
+    this.burst = false;
+    this.sum = [0, 0, 0];
+    // Also where a button that had the focus is no longer there to have it; not within a notebook.
+    const signal = page.options.within;
+    page.root.ownerDocument.addEventListener("keydown", (event) => {
+      const at = event.target, own = at instanceof Node && page.root.contains(at);
+      if (own || (!signal && at === page.root.ownerDocument.body)) this.#down(event);
+    }, {signal});
+  }
+
+  /** @param {KeyboardEvent} event */
+  #down(event) {
+    const {page} = this, {store} = page, typing = event.target instanceof HTMLInputElement, key = keyName(event);
+    if (key === "Ctrl+s") {
+      event.preventDefault();
+      page.say(store.file ? `Every edit is kept in ${store.file} already.` : "This hull is in memory only: it was not opened from a hull file.");
+      return;
+    }
+    if (event.key === "Escape") return this.#escape(typing ? /** @type {HTMLInputElement} */ (event.target) : null, event.target);
+    if (typing && !key.startsWith("Ctrl")) return;
+    if (typing && ["Ctrl+z", "Ctrl+y", "Ctrl+Shift+z"].includes(key)) return; // of the field
+    const drawing = event.target instanceof HTMLCanvasElement;
+    if (drawing && event.key in ARROWS) {
+      event.preventDefault();
+      if (event.ctrlKey || event.metaKey) page.pan(-40 * ARROWS[event.key][0], 40 * ARROWS[event.key][1]);
+      else if (store.shaping) page.shaper.nudge(page.activeView(), ARROWS[event.key], (event.shiftKey ? 10 : event.altKey ? 0.1 : 1) * STEP);
+      else this.#nudge(ARROWS[event.key], event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
+      return;
+    }
+    if (drawing && event.key === "Enter") return this.burst ? this.finish() : store.shaping ? page.shaper.finish() : void page.panel.proposal.apply();
+    if (drawing && event.key === "Backspace" && store.shaping) return page.shaper.back();
+    if (!drawing && !key.startsWith("Ctrl") && key !== "/" && key !== "?" && key !== ":") return;
+    // A place that was clicked is taken back first; an edit that lies before it stays.
+    if (key === "Ctrl+z" && store.shaping?.places.length) {
+      event.preventDefault();
+      return page.shaper.back();
+    }
+    const action = actionOf(page, key);
+    if (!action) return;
+    event.preventDefault();
+    this.finish();
+    action.run(page);
+  }
+
+  /** @param {HTMLInputElement | null} field @param {EventTarget | null} at */
+  #escape(field, at) {
+    const {page} = this, {store} = page;
+    if (store.held) {
+      clearTimeout(this.timer);
+      this.burst = false;
+      page.cancel();
+    } else if (store.refusal || store.problem) {
+      store.refusal = store.problem = null;
+      store.changed("overlay", "panel");
+    } else if (page.shaper.stop()) page.say("Nothing is re-shaped.");
+    else if (store.inserting !== null) {
+      store.inserting = null;
+      page.say("No point is inserted.");
+    } else if (store.ghost || page.shower) page.dropGhost();
+    else if (field) page.leaveField(field);
+    else if (store.marked) {
+      store.marked = null;
+      store.changed("overlay");
+    }
+    else if (at instanceof Element && at.closest("aside, .bar")) page.activeView().upper.focus({preventScroll: true});
+    else if (store.maximised) page.maximise(/** @type {import("./view.js").Kind} */ (store.maximised));
+    else store.select(null, null);
+  }
+
+  /** @param {[number, number]} way @param {number} times */
+  #nudge(way, times) {
+    const {store, hand} = this.page, view = this.page.activeView();
+    if (view.kind === "wire") return this.page.say("The wire only shows: choose a point in another drawing.");
+    if (store.tools.how === "pull") return this.nudge((way[0] + way[1]) * times * STEP);
+    const held = this.#hold("move");
+    if (!held) return;
+    const s = view.kind === "body" ? view.side(held.start[0]) : 1;
+    this.sum[view.a] += s * way[0] * times * STEP;
+    this.sum[view.b] += way[1] * times * STEP;
+    hand.move(this.sum);
+    this.#wait();
+  }
+
+  /** Pulls the hull at the chosen point by d (m) more. @param {number} d */
+  nudge(d) {
+    if (!this.#hold("pull")) return;
+    this.sum[0] += d;
+    this.page.hand.pull(this.sum[0]);
+    this.#wait();
+  }
+
+  /** Takes hold of the chosen point, or keeps it in the same burst. @param {"pull" | "move"} how */
+  #hold(how) {
+    const {page} = this, {store, hand} = page, row = store.selection.row;
+    if (row === null) return void page.say("Choose a point first: click it, or press / and type its name.");
+    if (this.burst && store.held?.how !== how) this.finish();
+    if (!this.burst) {
+      if (!hand.begin(row, how)) return void page.say("That was not done: the last edit is still being made.");
+      this.burst = true;
+      this.sum = [0, 0, 0];
+    }
+    if (!store.held) this.burst = false; // it was refused
+    return store.held;
+  }
+
+  #wait() {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.finish(), BURST);
+  }
+
+  /** Ends a burst: it is one edit. */
+  finish() {
+    clearTimeout(this.timer);
+    if (!this.burst) return;
+    this.burst = false;
+    this.page.hand.finish();
+  }
 }

@@ -1,6 +1,7 @@
 // Fairing: where the hull is wavy, and a window of it that is faired with a noise that a slider sets.
 
 import {Asker, button, link, paragraph} from "./asker.js";
+import {curveOf} from "./lists.js";
 import {costWords} from "./propose.js";
 import {millimetres} from "./units.js";
 
@@ -68,6 +69,7 @@ export class Fairing extends Asker {
     this.what = "edit";
     this.asked = page.apply(`fair around ${found.name}, noise ${(1e3 * found.noise).toFixed(1)} mm`, [{op: "fair", at: found.name, radius: found.radius, noise: found.noise}]);
     this.words.textContent = "Fairing the hull …";
+    page.activeView().upper.focus({preventScroll: true});
   }
 
   dropped() {
@@ -128,11 +130,5 @@ export class Fairing extends Asker {
   }
 
   /** Goes to a place, near enough to see it. @param {string} point @param {string} line */
-  #fly(point, line) {
-    const {page} = this, {net} = page.store, curve = [...(net?.curves ?? [])].find(([, each]) => each.line.name === line || each.name === line)?.[0] ?? null;
-    const found = net?.find(point) ?? null;
-    if (found === null && curve === null) return page.find(point);
-    page.choose(found, curve);
-    page.fly(4);
-  }
+  #fly(point, line) { this.page.goTo(this.page.store.net?.find(point) == null ? line : point, null, curveOf(this.page, line)); }
 }

@@ -1,6 +1,6 @@
 // Pointers on a view: hover, choose, drag a point, pan, zoom, turn the wire.
 
-import {curveThrough, nearestCurve, nearestPoint} from "./hit.js";
+import {curveThrough, nearestCurve, nearestPoint} from "./view.js";
 
 /** @typedef {import("./view.js").View} View */
 /** @typedef {import("./store.js").Store} Store */
@@ -41,7 +41,7 @@ export class Pointers {
     this.onInsert = null;
     /** May take a click to place a picture. @type {((x: number, y: number) => boolean) | null} */
     this.onPlace = null;
-    /** Takes places while a line is re-shaped. @type {import("./shape.js").Shaper | null} */
+    /** Takes places while a line is re-shaped. @type {import("./propose.js").Shaper | null} */
     this.shaper = null;
   }
 
@@ -131,7 +131,7 @@ export class Pointers {
     press.lock = event.shiftKey;
     if (press.mode === "point") this.track();
     else if (press.mode === "mark") {
-      if (this.store.shaping && press.row !== null) this.shaper?.to(press.row, this.#placeOn(this.store.shaping.curve, x, y));
+      if (this.store.shaping && press.row !== null) this.shaper?.to(view, press.row, this.#placeOn(this.store.shaping.curve, x, y));
     } else {
       if (press.mode === "turn") view.turn(dx, dy);
       else view.pan(dx, dy);

@@ -1,8 +1,10 @@
-// Two lists in the panel: the points of the chosen curve, and what is wrong with the hull.
+// Lists to choose from: all lines by family, the points of the chosen line, what is wrong with the hull;
+// and the ways to what is chosen, named or found.
 
-import {link, paragraph} from "./asker.js";
+import {Asker, button, link, paragraph} from "./asker.js";
 
 /** @typedef {import("./page.js").Page} Page */
+
 /** @typedef {{kind: string, object: string, place: number[] | null, text: string}} Finding */
 
 /** Points of a curve in their order along it. @param {import("./store.js").Store} store @param {number} id @returns {number[]} */
@@ -37,9 +39,7 @@ export class PointTable {
     if (!open || key === this.shown) return;
     this.shown = key;
     if (id === null || !store.net) {
-      const words = document.createElement("p");
-      words.textContent = "Click a line: its points are listed here.";
-      return this.box.replaceChildren(words);
+      return this.box.replaceChildren(paragraph("Click a line: its points are listed here."));
     }
     const table = document.createElement("table"), caption = table.createCaption(), head = table.createTHead().insertRow();
     caption.textContent = `Points of ${store.net.curveName(id)}, m`;
@@ -71,17 +71,11 @@ export class PointTable {
 }
 
 /** What the library finds wrong; asked for, as it takes a moment on a large net. */
-export class Problems {
+export class Problems extends Asker {
   /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
-    this.page = page;
-    this.list = document.createElement("div");
-    const button = document.createElement("button");
-    button.type = "button";
-    button.textContent = "Check the hull";
-    button.onclick = () => this.ask();
-    box.append(button, this.list);
-    this.asked = 0;
+    super(page, box);
+    box.append(button("Check the hull", () => this.look()), this.words, this.list);
     this.state = -1;
     this.shown = "";
     /** @type {Finding[] | null} */
@@ -93,28 +87,25 @@ export class Problems {
     box.closest("details")?.querySelector("summary")?.append(this.count);
   }
 
-  ask() { this.asked = this.page.request({t: "check"}); }
+  look() { this.ask({t: "check"}, "Looking …"); }
 
   /** @param {{id: number, value: Finding[] | null}} message */
   answer(message) {
     if (message.id !== this.asked || !message.value) return;
     this.found = message.value;
+    this.words.textContent = "";
     this.state = this.page.store.state;
     this.page.say(this.#words());
     this.render();
   }
 
-  /** The server has gone: what was found is of another session. */
-  lost() { this.asked = this.state = -1; }
+  lost() {
+    super.lost();
+    this.state = -1;
+  }
 
   /** @param {any} _message */
   done(_message) { this.refusal = null; }
-
-  /** @param {any} _message */
-  refused(_message) { return false; }
-
-  /** @param {any} _message */
-  problem(_message) { return false; }
 
   #words() {
     const n = this.found?.length ?? 0;
@@ -133,4 +124,114 @@ export class Problems {
     const last = refused ? [paragraph("Refused last:"), name ? link(first, () => this.page.goTo(name, refused.place)) : paragraph(first)] : [];
     this.list.replaceChildren(...words, ...rows, ...last);
   }
+}
+
+export class LineChoice {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    this.page = page;
+    this.select = document.createElement("select");
+    this.select.setAttribute("aria-label", "the chosen line");
+    this.select.onchange = () => {
+      if (this.select.value) page.choose(null, Number(this.select.value));
+    };
+    this.shown = /** @type {import("./net.js").Net | null} */ (null);
+    box.append(this.select);
+  }
+
+  render() {
+    const {net, selection} = this.page.store;
+    if (!net) return;
+    if (net !== this.shown) {
+      this.shown = net;
+      const families = new Map();
+      for (const line of [...net.lines].sort((p, q) => (p.offset ?? 0) - (q.offset ?? 0))) {
+        const group = families.get(line.family) ?? document.createElement("optgroup");
+        group.label = line.family[0].toUpperCase() + line.family.slice(1);
+        line.curves.forEach((id, i) => group.append(new Option(line.names[i], String(id))));
+        families.set(line.family, group);
+      }
+      this.select.replaceChildren(new Option("choose a line …", ""), ...families.values());
+    }
+    const value = selection.curve === null ? "" : String(selection.curve);
+    if (this.select.value !== value) this.select.value = value;
+  }
+}
+
+const NEAR = 60; // pixels for a metre, at least, where a finding is looked at
+
+/** Chooses, says what it is, and brings it into the picture. @param {Page} page @param {number | null} row @param {number | null} curve */
+export function choose(page, row, curve) {
+  const {store} = page, {net} = store, point = row === null ? undefined : net?.points.get(row);
+  store.select(row, curve);
+  store.marked = null;
+  bring(page);
+  page.say(point && net ? `${point.name}, ${net.roleWords(point)}` : curve === null ? "" : net?.curveName(curve) ?? "");
+}
+
+/** Brings what is chosen to the middle, where it is not seen. @param {Page} page */
+function bring(page) {
+  const {selection, net} = page.store, view = page.activeView();
+  const row = selection.row ?? (selection.curve === null ? undefined : net?.rowsOf.get(selection.curve)?.[0]), place = row === undefined ? undefined : page.store.placeOf(row);
+  if (!place || view.kind === "wire") return;
+  const [x, y] = view.atPlace(place);
+  if (x < 9 || y < 9 || x > view.width - 9 || y > view.height - 9) view.pan(view.width / 2 - x, view.height / 2 - y);
+  page.store.changed("overlay");
+}
+
+/** Shows all of the chosen line, or the chosen point near enough for millimetres; a second time changes nothing. @param {Page} page */
+export function showChosen(page) {
+  const {store} = page, {selection} = store, view = page.activeView(), place = selection.row === null ? undefined : store.placeOf(selection.row);
+  const curve = selection.curve === null ? undefined : store.curveNow(selection.curve);
+  if (view.kind === "wire") return page.say("The wire shows all of the hull: click another drawing first.");
+  if (place) view.centre(place, NEAR);
+  else if (curve) view.enclose(curve.xyz);
+  store.changed("hull", "overlay");
+}
+
+/** The curve of a name of a line or a curve. @param {Page} page @param {string} name */
+export function curveOf(page, name) {
+  return [...page.store.net?.curves ?? []].find(([, each]) => each.name === name || each.line.name === name)?.[0] ?? null;
+}
+
+/** Leads to what a finding names: all views come to the place, near enough to see it, and it is marked. @param {Page} page @param {string} object @param {number[] | null} place @param {number | null} curve */
+export function goTo(page, object, place, curve) {
+  const {store, root} = page, {net} = store, row = net?.find(object) ?? null, point = row === null ? undefined : net?.points.get(row);
+  const at = place ?? (row === null ? undefined : store.placeOf(row)), on = curve ?? point?.a ?? curveOf(page, object);
+  if (!at) return find(page, object);
+  store.select(row, on);
+  store.marked = [...at];
+  for (const view of Object.values(page.views)) if (view.shown && view.kind !== "wire") view.centre(at, NEAR);
+  store.changed("hull", "overlay");
+  // On a narrow screen the drawing lies above the list.
+  root.querySelector(".views")?.scrollIntoView({block: "nearest"});
+  page.say(`${object} at (${[...at].map((each) => each.toFixed(3)).join(", ")}) m`);
+}
+
+/** Chooses a point or a line by its name. @param {Page} page @param {string} name */
+export function find(page, name) {
+  const {net} = page.store;
+  if (!net) return;
+  const row = net.find(name), curve = net.findCurve(name);
+  if (row === null && curve === null) return page.say(`There is no point and no line "${name}": type a name such as ${net.byName[0]?.[0] ?? "WL 1"}.`);
+  const point = row === null ? undefined : net.points.get(row), view = page.activeView();
+  const on = point ? [point.a, point.b].find((id) => { const line = net.lineOf(id); return line && view.shows(line) && line.family !== "boundary"; }) ?? point.a : curve;
+  choose(page, row, on);
+  view.upper.focus({preventScroll: true});
+}
+
+/** The next point of the chosen line. @param {Page} page @param {number} by */
+export function stepPoint(page, by) {
+  const {selection, curves} = page.store, id = selection.curve;
+  if (id === null || !curves.has(id)) return page.say("Choose a line first.");
+  const order = alongCurve(page.store, id), at = selection.row === null ? (by > 0 ? -1 : 0) : order.indexOf(selection.row);
+  if (order.length) choose(page, order[(at + by + order.length) % order.length], id);
+}
+
+/** The next curve of the view. @param {Page} page @param {number} by */
+export function stepCurve(page, by) {
+  const {store} = page, view = page.activeView(), lines = (store.net?.lines ?? []).filter((line) => line.family !== "boundary" && view.shows(line));
+  lines.sort((p, q) => (p.offset ?? 0) - (q.offset ?? 0));
+  const ids = lines.flatMap((line) => line.curves), at = store.selection.curve === null ? (by > 0 ? -1 : 0) : ids.indexOf(store.selection.curve);
+  if (ids.length) choose(page, null, ids[(at + by + ids.length) % ids.length]);
 }

@@ -1,29 +1,59 @@
-// How the page is looked at, kept by the browser for the next time; nothing of the hull is.
+// How the page looks: what the browser keeps of that for the next time, which is nothing of the hull;
+// colours; and the room that each view has.
 
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {import("./store.js").Store} Store */
 
 /** @param {Page} page */
 export function keepLooks(page) {
-  const {show, tools, gain, squeeze, theme} = page.store;
-  page.options.keep("looks", JSON.stringify({show, how: tools.how, fine: tools.fine, fair: tools.fair, fairShapes: tools.fairShapes, pinned: tools.pinned, gain, squeeze, theme}));
+  const {show, tools: {radius, ...tools}, gain, squeeze, theme} = page.store;
+  page.options.keep("looks", JSON.stringify({show, ...tools, gain, squeeze, theme}));
 }
 
 /** @param {Page} page */
 export function restoreLooks(page) {
   const {store} = page;
   try {
-    const {show, how, fine, fair, fairShapes, pinned, gain, squeeze, theme} = JSON.parse(page.options.kept("looks") ?? "{}");
+    const {show, how, fairShapes, gain, squeeze, theme, ...kept} = JSON.parse(page.options.kept("looks") ?? "{}");
     for (const name of /** @type {(keyof Store["show"])[]} */ (Object.keys(store.show))) if (typeof show?.[name] === "boolean") store.show[name] = show[name];
     if (how === "pull" || how === "move") store.tools.how = how;
-    store.tools.fine = fine === true;
-    store.tools.fair = fair === true;
+    for (const name of /** @type {const} */ (["fine", "fair", "pinned"])) store.tools[name] = kept[name] === true;
     store.tools.fairShapes = fairShapes !== false;
-    store.tools.pinned = pinned === true;
     if (gain > 0 && gain < 100) store.gain = gain;
     if ([1, 2, 5, 10].includes(squeeze)) store.squeeze = squeeze;
     if (["auto", "light", "dark"].includes(theme)) store.theme = theme;
   } catch {
     page.options.keep("looks", "{}"); // what was kept is none of ours
+  }
+}
+
+const NAMES = ["paper", "ink", "soft", "grid", "water", "live", "spike", "comb", "hot", "ghost",
+  "boundary", "sections", "waterlines", "buttocks", "diagonals", "frames"];
+
+/** @param {HTMLElement} root @returns {Record<string, string>} */
+export function readInk(root) {
+  const style = getComputedStyle(root);
+  return Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+}
+
+/** Which of the two is shown. @param {string} wish */
+export function themeOf(wish) {
+  if (matchMedia("print").matches) return "light";
+  if (wish !== "auto") return wish;
+  return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+}
+
+const SHARE = 0.254, LEAST = 104; // of the height at most, px at least
+
+/** Gives the low views the height that the hull fills at the scale of its length; all of theirs where lengths are compressed. @param {Page} page */
+export function layRows(page) {
+  const {store, views} = page, box = views.profile.element.parentElement;
+  if (!box || !store.net) return;
+  const {clientWidth: wide, clientHeight: high} = box, key = `${wide}/${high}/${store.squeeze}/${store.net.particulars.name}`;
+  if (box.dataset.laid === key) return;
+  box.dataset.laid = key;
+  for (const view of [views.profile, views.half]) {
+    const most = Math.max(SHARE * high, LEAST), want = store.squeeze === 1 ? view.heightFor(wide) : most;
+    box.style.setProperty(`--${view.kind}`, `${Math.round(Math.min(Math.max(want, LEAST), most))}px`);
   }
 }

@@ -9,6 +9,11 @@ export const SHARED = 0, WATCHED = 3;
 const SORTS = ["crossing", "placed point", "adopted point"];
 const KINDS = ["smooth", "tangent", "knuckle"];
 
+/** A name as it is compared: spaces, capitals, a comma for the point and zeros at the ends do not matter. @param {string} name */
+export function alike(name) {
+  return name.toLowerCase().replace(/×/g, "x").replace(/(\d),(?=\d)/g, "$1.").replace(/\s+/g, "").replace(/(^|[^\d.])0+(?=\d)/g, "$1").replace(/(\.\d*?)0+(?!\d)/g, "$1").replace(/\.(?!\d)/g, "");
+}
+
 export class Net {
   /** @param {any} message */
   constructor(message) {
@@ -47,14 +52,20 @@ export class Net {
   /** @param {number} curve */
   curveName(curve) { return this.curves.get(curve)?.name ?? ""; }
 
+  /** The curve of a name; of a line of several, the first. @param {string} name @returns {number | null} */
+  findCurve(name) {
+    const wanted = alike(name), named = [...this.curves];
+    return (named.find(([, each]) => alike(each.name) === wanted) ?? named.find(([, each]) => alike(each.line.name) === wanted))?.[0] ?? null;
+  }
+
   /** The point of a name, or of the two lines given in the other order. @param {string} name */
   find(name) {
-    const wanted = name.trim().toLowerCase();
-    for (const point of this.points.values()) if (point.name.toLowerCase() === wanted || (point.label && point.label.toLowerCase() === wanted)) return point.row;
-    const [one, other, ...more] = wanted.split(" x ");
-    if (!other || more.length) return null;
-    const turned = `${other} x ${one}`;
-    for (const point of this.points.values()) if (point.name.toLowerCase() === turned) return point.row;
+    const wanted = alike(name);
+    for (const point of this.points.values()) if (alike(point.name) === wanted || (point.label && alike(point.label) === wanted)) return point.row;
+    const [, one, other, rest] = /^(.+?)\s*[x×]\s+(.+?)(\s*#\d+)?$/i.exec(name.trim()) ?? [];
+    if (!other) return null;
+    const turned = alike(`${other} x ${one}${rest ?? ""}`);
+    for (const point of this.points.values()) if (alike(point.name) === turned) return point.row;
     return null;
   }
 

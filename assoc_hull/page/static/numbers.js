@@ -41,7 +41,9 @@ export class Numbers extends Asker {
     for (const each of /** @type {Value[]} */ (values)) {
       const row = body.insertRow(), unit = POWERS[each.unit] ?? each.unit, head = document.createElement("th");
       head.scope = "row";
-      head.textContent = each.name;
+      const [symbol, below] = each.name.split("_");
+      head.textContent = symbol;
+      if (below) head.append(Object.assign(document.createElement("sub"), {textContent: below}));
       row.title = `${each.meaning}${each.error === null ? "" : `; may be off by ${each.error.toPrecision(1)} ${unit}`}`;
       row.append(head);
       row.insertCell().textContent = each.value === null ? "not known" : `${each.value.toFixed(each.digits)} ${unit}`;

@@ -1,30 +1,26 @@
 // The page: its parts, what the server says, and what the actions do. Everything hangs on one root.
 
-import {ACTIONS, keyWords} from "./actions.js";
+import {ACTIONS, Keys, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
-import {Keys} from "./keys.js";
 import {GHOST, LIVE, NET, THEIRS, VERSION, parseFrame} from "./wire.js";
 import {CROSSING, Net} from "./net.js";
-import {keepLooks, restoreLooks} from "./looks.js";
+import {keepLooks, layRows, readInk, restoreLooks, themeOf} from "./looks.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
-import {Shaper} from "./shape.js";
-import {Speaker} from "./speak.js";
+import {Shaper} from "./propose.js";
+import {Speaker, placeBubble} from "./said.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
 import {paintHull, paintOverlay} from "./paint.js";
-import {readInk, themeOf} from "./theme.js";
-import {openPalette} from "./palette.js";
-import {placeBubble} from "./bubble.js";
-import {makeBar} from "./bar.js";
-import {alongCurve} from "./lists.js";
+import {makeBar, openPalette} from "./bar.js";
+import {choose, find, goTo, stepCurve, stepPoint} from "./lists.js";
 
 /** @typedef {import("./view.js").Kind} Kind */
 /** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */
 /** @typedef {{send: (message: object) => void}} Link */
 /** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, within?: AbortSignal, upload?: (file: File) => Promise<any>}} Options */
 
-const NEAR = 60; // pixels for a metre, at least, where a finding is looked at
+const READ = 6000; // ms
 const KINDS = /** @type {Kind[]} */ (["body", "profile", "half", "wire"]);
 
 /** @param {HTMLElement} root @param {Options} options */
@@ -73,6 +69,7 @@ export class Page {
     this.panelStale = true;
     this.pending = 0;
     this.number = 0;
+    this.said = {words: "", at: -Infinity};
     /** The number of the ghost that is waited for or shown, and who asked for it. */
     this.wanted = 0;
     this.shower = /** @type {{dropped: () => void} | null} */ (null);
@@ -214,6 +211,7 @@ export class Page {
   #frame() {
     this.pending = 0;
     const begin = performance.now(), {store} = this;
+    layRows(this);
     // One that is measured anew is fitted anew, if nobody has looked elsewhere.
     const other = Object.values(this.views).filter((view) => view.measure());
     for (const view of other) if (view.fitted) view.fit();
@@ -250,7 +248,9 @@ export class Page {
       : held?.how === "pull" ? "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
       : held ? "Move: Alt is ten times finer, Shift locks an axis, Esc cancels"
       : store.selection.row !== null ? "Drag, or use the arrows: 1 mm, Shift 10 mm, Alt 0.1 mm" : "Click a point or a line; drag the ground to pan, the wheel zooms";
-    this.status.textContent = store.connection === "connecting" ? "Connecting" : hints;
+    // What was said is read before it gives way to a hint.
+    const said = !held && performance.now() - this.said.at < READ ? this.said.words : "";
+    this.status.textContent = store.connection === "connecting" ? "Connecting" : said || hints;
     const view = this.activeView(), pixel = 1e3 / view.axis.s * (this.store.tools.fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
     const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
     this.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.net?.points.get(store.theirs.row)?.name ?? "a point"}` : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
@@ -261,6 +261,7 @@ export class Page {
   /** @param {string} words */
   say(words) {
     this.speaker.say(words);
+    this.said = {words, at: performance.now()};
     this.status.textContent = words;
   }
 
@@ -404,70 +405,27 @@ export class Page {
     if (drawing) this.activeView().upper.focus({preventScroll: true});
   }
 
-  /** Brings what is chosen to the middle, where it is not seen, or nearer. @param {number} nearer */
-  fly(nearer) {
-    const {selection, net} = this.store, view = this.activeView();
-    const row = selection.row ?? (selection.curve === null ? undefined : net?.rowsOf.get(selection.curve)?.[0]), place = row === undefined ? undefined : this.store.placeOf(row);
-    if (!place || view.kind === "wire") return;
-    if (nearer > 1) view.zoom(...view.atPlace(place), nearer);
-    const [x, y] = view.atPlace(place);
-    if (nearer > 1 || x < 40 || y < 40 || x > view.width - 40 || y > view.height - 40) view.pan(view.width / 2 - x, view.height / 2 - y);
-    this.store.changed("overlay");
-  }
+  /** @param {number} by */
+  step(by) { stepPoint(this, by); }
 
   /** @param {number} by */
-  step(by) {
-    const {selection, curves} = this.store, id = selection.curve;
-    if (id === null || !curves.has(id)) return this.say("Choose a line first.");
-    const order = alongCurve(this.store, id), at = selection.row === null ? (by > 0 ? -1 : 0) : order.indexOf(selection.row);
-    this.choose(order[(at + by + order.length) % order.length], id);
-  }
-
-  /** @param {number} by */
-  stepCurve(by) {
-    const view = this.activeView(), lines = (this.store.net?.lines ?? []).filter((line) => line.family !== "boundary" && view.shows(line));
-    lines.sort((p, q) => (p.offset ?? 0) - (q.offset ?? 0));
-    const ids = lines.flatMap((line) => line.curves), at = this.store.selection.curve === null ? (by > 0 ? -1 : 0) : ids.indexOf(this.store.selection.curve);
-    if (ids.length) this.choose(null, ids[(at + by + ids.length) % ids.length]);
-  }
+  stepCurve(by) { stepCurve(this, by); }
 
   /** @param {number | null} row @param {number | null} curve */
-  choose(row, curve) {
-    this.store.select(row, curve);
-    this.fly(1);
-    const {net} = this.store, point = row === null ? undefined : net?.points.get(row);
-    this.say(point && net ? `${point.name}, ${net.roleWords(point)}` : curve === null ? "" : net?.curveName(curve) ?? "");
-  }
+  choose(row, curve) { choose(this, row, curve); }
 
-  /** Leads to what a finding names: all views come to the place, near enough to see it, and it is marked. @param {string} object @param {number[] | null} place */
-  goTo(object, place) {
-    const {store} = this, {net} = store, row = net?.find(object) ?? null, point = row === null ? undefined : net?.points.get(row);
-    const at = place ?? (row === null ? undefined : store.placeOf(row)), curve = point?.a ?? [...net?.curves ?? []].find(([, each]) => each.name === object || each.line.name === object)?.[0] ?? null;
-    if (!at) return this.find(object);
-    store.select(row, curve);
-    store.marked = [...at];
-    for (const view of Object.values(this.views)) if (view.shown && view.kind !== "wire") view.centre(at, NEAR);
-    store.changed("hull", "overlay");
-    this.say(`${object} at (${[...at].map((each) => each.toFixed(3)).join(", ")}) m`);
-  }
+  /** Leads to what a finding names. @param {string} object @param {number[] | null} place @param {number | null} [curve] */
+  goTo(object, place, curve = null) { goTo(this, object, place, curve); }
 
   search() { this.bar.look(); }
 
   /** @param {string} name */
-  find(name) {
-    const {net} = this.store;
-    if (!net) return;
-    const row = net.find(name), wanted = name.trim().toLowerCase(), curve = [...net.curves].find(([, each]) => each.name.toLowerCase() === wanted)?.[0];
-    if (row === null && curve === undefined) return this.say(`There is no point and no line "${name}": type a name such as ${net.byName[0]?.[0] ?? "WL 1"}.`);
-    const point = row === null ? undefined : net.points.get(row), view = this.activeView();
-    const on = point ? [point.a, point.b].find((id) => { const line = net.lineOf(id); return line && view.shows(line) && line.family !== "boundary"; }) ?? point.a : curve ?? null;
-    this.choose(row, on);
-    view.upper.focus({preventScroll: true});
-  }
+  find(name) { find(this, name); }
 
   /** @param {HTMLInputElement} field */
   leaveField(field) {
     field.blur();
+    delete field.dataset.typed;
     this.panel.shownState = -1;
     this.store.changed("panel");
     this.activeView().upper.focus({preventScroll: true});

@@ -1,10 +1,8 @@
 // What is drawn, and in which order: the hull below, what lives above.
 
-import {evaluate, normalMovement} from "./hermite.js";
-import {combScale, inflections, teeth} from "./comb.js";
-import {drawLabels} from "./labels.js";
-import {drawBeside, drawPicture} from "./drop.js";
-import {diamond, drawHandles} from "./handles.js";
+import {combScale, evaluate, inflections, middleMovement, normalMovement, teeth} from "./hermite.js";
+import {diamond, drawHandles, drawLabels} from "./marks.js";
+import {drawBeside, drawPicture} from "./files.js";
 
 /** @typedef {import("./view.js").View} View */
 /** @typedef {import("./wire.js").Curve} Curve */
@@ -115,11 +113,17 @@ export function farthest(frame, published, counts = () => true) {
   return most;
 }
 
+/** The farthest that curves of a frame are drawn off their published shape, m, also between knots. @param {Frame} frame @param {Map<number, Curve>} published */
+export function farthestDrawn(frame, published) {
+  let most = farthest(frame, published);
+  for (const [id, curve] of frame.curves) for (const far of middleMovement(published.get(id), curve) ?? []) most = Math.max(most, far);
+  return most;
+}
+
 /** @param {View} view @param {Ink} ink */
 export function paintOverlay(view, ink) {
   const g = view.context(view.upper), {store} = view, {net, overlay, selection, hover} = store;
   view.stale.overlay = false;
-  view.note.textContent = noteOf(view);
   if (!net) return;
   g.lineJoin = g.lineCap = "round";
   drawBeside(view, g, ink.soft);
@@ -131,6 +135,7 @@ export function paintOverlay(view, ink) {
   if (chosen !== null) {
     stroke(view, g, chosen, ink.ink, view.kind === "wire" ? 1.4 : 2);
   }
+  view.note.textContent = noteOf(view); // the magnification is known only now
   if (view.kind === "wire") return;
   if (store.show.combs) for (const id of combed(view)) drawComb(view, g, ink, id, id === chosen);
   drawHandles(view, g, ink);
@@ -168,9 +173,9 @@ function drawGhost(view, g, ink, frame) {
   for (const [id, c] of frame.curves) {
     const line = net?.lineOf(id), by = moved.get(id);
     if (!line || !view.shows(line)) continue;
-    const far = (/** @type {number} */ i) => by ? Math.hypot(by[3 * i], by[3 * i + 1], by[3 * i + 2]) : Infinity;
+    const far = (/** @type {number} */ i) => by ? Math.hypot(by[3 * i], by[3 * i + 1], by[3 * i + 2]) : Infinity, middle = middleMovement(curves.get(id), c);
     // What lies where it is published would only hide it.
-    view.trace(g, c, line, by ? (i) => Math.max(far(i), far(i + 1)) >= LEAST_MOVED : undefined);
+    view.trace(g, c, line, by ? (i) => Math.max(far(i), far(i + 1), middle?.[i] ?? 0) >= LEAST_MOVED : undefined);
   }
   g.strokeStyle = ink.live;
   g.lineWidth = view.kind === "wire" ? 0.7 : 1;
@@ -226,11 +231,14 @@ function drawSpikes(view, g, ink, frame, moved, top) {
     const line = net?.lineOf(id), by = moved.get(id), old = curves.get(id);
     if (!line || !by || !old || !view.shows(line)) continue;
     for (const given of view.sides(line) ?? [0]) {
+      let last = [-99, -99];
       for (let p = 0; p < by.length; p += 3) {
         const way = by.subarray(p, p + 3);
         if (Math.hypot(way[0], way[1], way[2]) < LEAST_MOVED) continue;
         const side = given || view.side(old.xyz[p]);
         const [x, y] = view.at(old.xyz[p], old.xyz[p + 1], old.xyz[p + 2], side), [dx, dy] = view.seen(way, side);
+        if (Math.hypot(x - last[0], y - last[1]) < 7) continue; // a hedge shows nothing
+        last = [x, y];
         g.moveTo(x, y);
         g.lineTo(x + view.magnified * dx, y + view.magnified * dy);
       }

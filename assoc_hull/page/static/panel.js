@@ -2,21 +2,18 @@
 
 import {ACTIONS, keyWords} from "./actions.js";
 import {button} from "./asker.js";
-import {inflections} from "./comb.js";
-import {arcLength} from "./hermite.js";
+import {arcLength, inflections} from "./hermite.js";
 import {farthest} from "./paint.js";
-import {Beside} from "./drop.js";
-import {PointTable, Problems} from "./lists.js";
+import {Beside, Files} from "./files.js";
+import {LineChoice, PointTable, Problems} from "./lists.js";
 import {Fairing} from "./fair.js";
-import {Files} from "./files.js";
 import {Numbers} from "./numbers.js";
-import {Past} from "./past.js";
+import {Past, WhyPanel} from "./past.js";
 import {Proposal} from "./propose.js";
 import {Vary} from "./vary.js";
-import {WhyPanel} from "./why.js";
 import {CROSSING} from "./net.js";
-import {roleChoice} from "./point_acts.js";
-import {millimetres, signed} from "./units.js";
+import {PointActs, roleChoice} from "./point_acts.js";
+import {millimetres, signed, typedNumber} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
 
@@ -43,6 +40,12 @@ export class Panel {
     this.fields = [];
     this.shownRow = /** @type {number | null | undefined} */ (undefined);
     this.shownState = -1;
+    this.pointBox = document.createElement("div");
+    this.curveBox = document.createElement("div");
+    this.parts.Point.append(this.pointBox);
+    this.acts = new PointActs(page, this.parts.Point);
+    this.lines = new LineChoice(page, this.parts.Curve);
+    this.parts.Curve.append(this.curveBox);
     this.#signature();
     this.points = new PointTable(page, this.parts.Points);
     this.vary = new Vary(page, this.parts.Vary);
@@ -62,6 +65,7 @@ export class Panel {
     this.pointForm = document.createElement("div");
     this.pointForm.className = "form";
     this.pointForm.append(...ofPoint.map(({found}) => found));
+    this.acts.add(this.pointForm);
     this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
     const form = document.createElement("div");
     form.className = "form";
@@ -85,7 +89,7 @@ export class Panel {
     field.inputMode = "decimal";
     field.setAttribute("aria-label", i ? "radius of a pull around the girth, m" : "radius of a pull along the length, m");
     field.onchange = () => {
-      const value = Number(field.value.replace(",", ".").trim() || NaN), radius = [...(store.tools.radius ?? [1, 1])];
+      const value = typedNumber(field), radius = [...(store.tools.radius ?? [1, 1])];
       if (!(value > 0 && value < 1000)) this.page.say("A radius is a number of metres above 0, such as 12.5");
       else radius[i] = value;
       store.tools.radius = radius;
@@ -104,6 +108,8 @@ export class Panel {
       if (radius && field !== document.activeElement) field.value = radius[i].toFixed(1);
     });
     this.#point();
+    this.acts.render();
+    this.lines.render();
     this.#curve();
     this.#edit();
     this.points.render();
@@ -139,7 +145,7 @@ export class Panel {
   }
 
   #point() {
-    const {store} = this.page, box = this.parts.Point, row = store.held?.row ?? store.selection.row;
+    const {store} = this.page, box = this.pointBox, row = store.held?.row ?? store.selection.row;
     const point = row === null ? undefined : store.net?.points.get(row), place = row === null ? undefined : store.placeOf(row);
     if (!point || !place || !store.net) {
       this.shownRow = null;
@@ -148,7 +154,7 @@ export class Panel {
     const same = this.shownRow === row && this.shownState === store.state && this.fields.length > 0 && box.contains(this.fields[0]);
     if (same) {
       this.fields.forEach((field, i) => {
-        if (field !== document.activeElement) field.value = place[i].toFixed(4);
+        if (field !== document.activeElement && !field.dataset.typed) field.value = place[i].toFixed(4);
       });
       const moved = box.querySelector(".moved");
       if (moved) moved.textContent = this.#movedWords(row);
@@ -162,7 +168,14 @@ export class Panel {
     const moved = document.createElement("span");
     moved.className = "moved";
     moved.textContent = this.#movedWords(row);
+    // What is typed stays when somebody else has edited the hull meanwhile.
+    const old = this.shownRow === row ? this.fields : [], at = old.findIndex((field) => field === document.activeElement);
     this.fields = AXES.map((name, i) => this.#field(point, name, i, place[i]));
+    this.fields.forEach((field, i) => {
+      if (!old[i]?.dataset.typed || field.readOnly) return;
+      field.value = old[i].value;
+      field.dataset.typed = "yes";
+    });
     this.#table(box, [
       ["name", point.label || point.name],
       ["sort", store.net.sortWords(point)],
@@ -173,9 +186,9 @@ export class Panel {
     ]);
     this.pointForm.querySelector("select")?.remove();
     if (point.sort === CROSSING) this.pointForm.append(roleChoice(this.page, point));
-    box.append(this.pointForm);
     this.shownRow = row;
     this.shownState = store.state;
+    if (at >= 0) this.fields[at].focus();
   }
 
   /** How far the chosen point is from where it is published. @param {number | null} row */
@@ -200,24 +213,30 @@ export class Panel {
     field.onkeydown = (event) => {
       if (event.key === "Enter") this.#enter(point);
     };
+    field.oninput = () => {
+      field.dataset.typed = "yes";
+      this.page.say("Enter makes the edit, Esc leaves the point where it is.");
+    };
     field.onblur = () => this.page.store.changed("panel");
     return field;
   }
 
   /** @param {import("./net.js").Point} point */
   #enter(point) {
-    const values = Object.fromEntries([...point.free].map((name) => [name, Number(this.fields[AXES.indexOf(name)].value.replace(",", ".").trim() || NaN)]));
+    const values = Object.fromEntries([...point.free].map((name) => [name, typedNumber(this.fields[AXES.indexOf(name)])]));
     const {tools} = this.page.store;
     const wrong = Object.entries(values).find(([, value]) => !Number.isFinite(value));
     if (wrong) return this.page.say(`${wrong[0]} is no number of metres: type one such as 6.953`);
-    if (point.sort !== CROSSING && !tools.pinned) return this.page.panel.proposal.show(`lead ${this.page.store.net?.curveName(point.a)} by ${point.name}`, [{op: "move", point: point.name, ...values, lead: true}]);
-    this.page.apply(`place ${point.name} at ${Object.entries(values).map(([name, value]) => `${name} ${value}`).join(", ")}`, [{op: "move", point: point.name, ...values}]);
+    const {page} = this;
+    if (point.sort !== CROSSING && !tools.pinned) return page.panel.proposal.show(`lead ${page.store.net?.curveName(point.a)} by ${point.name}`, [{op: "move", point: point.name, ...values, lead: true}]);
+    for (const field of this.fields) delete field.dataset.typed;
+    page.apply(`place ${point.name} at ${Object.entries(values).map(([name, value]) => `${name} ${value}`).join(", ")}`, [{op: "move", point: point.name, ...values}]);
   }
 
   #curve() {
-    const {store} = this.page, box = this.parts.Curve, id = store.selection.curve, net = store.net;
+    const {store} = this.page, box = this.curveBox, id = store.selection.curve, net = store.net;
     const line = id === null ? undefined : net?.lineOf(id), was = id === null ? undefined : store.curves.get(id), now = id === null ? undefined : store.curveNow(id);
-    if (id === null || !net || !line || !was || !now) return this.#words(box, "Click a line.");
+    if (id === null || !net || !line || !was || !now) return this.#words(box, "Click a line, or choose it here.");
     const [a, b] = PLANES[line.family] ?? [0, 2], before = inflections(was, a, b).length, after = inflections(now, a, b).length;
     const count = document.createElement("span");
     count.textContent = before === after ? `${after}` : `${after}, was ${before}`;

@@ -1,4 +1,5 @@
-// The history: all steps with their authors; going to one, looking at it beside the present, naming it.
+// What was done: all steps with their authors, going to one, looking at it beside the present, naming it;
+// and why the chosen point or line moved last.
 
 import {Asker, button, link, paragraph} from "./asker.js";
 import {millimetres, signed} from "./units.js";
@@ -6,7 +7,13 @@ import {millimetres, signed} from "./units.js";
 /** @typedef {{number: number, parent: number, name: string, way: number, author: string, time: string, normal: number | null}} Step */
 
 /** @param {string} time */
-const clock = (time) => time ? new Date(time).toLocaleString([], {dateStyle: "short", timeStyle: "short"}) : "";
+const clock = (time) => time ? new Date(time).toLocaleString([], {dateStyle: "short", timeStyle: "short"}) + ago(time) : "";
+
+/** Within the last hours, how long ago. @param {string} time */
+function ago(time) {
+  const minutes = Math.round((Date.now() - Date.parse(time)) / 60_000);
+  return minutes < 0 || minutes > 600 ? "" : minutes < 1 ? ", just now" : minutes < 100 ? `, ${minutes} min ago` : `, ${(minutes / 60).toFixed(1)} h ago`;
+}
 
 export class Past extends Asker {
   /** @param {import("./page.js").Page} page @param {HTMLElement} box */
@@ -89,6 +96,65 @@ export class Past extends Asker {
       list.append(item);
     }
     const more = found.older ? [paragraph(`${found.older} older steps are not listed.`)] : [];
+    // The list is made anew: who is in it with the keys stays in it.
+    const at = this.box.ownerDocument.activeElement, label = at instanceof HTMLElement && this.list.contains(at) ? at.getAttribute("aria-label") ?? at.textContent : null;
     this.list.replaceChildren(list, ...more);
+    if (label === null) return;
+    const links = [...this.list.querySelectorAll("button")], same = links.find((each) => (each.getAttribute("aria-label") ?? each.textContent) === label);
+    (same ?? links[0])?.focus({preventScroll: true});
+  }
+}
+
+/** @typedef {{name: string, what: string, moved: number | null, left: number, stopped: string[], causes: Cause[]}} Cause */
+
+export class WhyPanel extends Asker {
+  /** @param {import("./page.js").Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    super(page, box);
+    box.append(this.words, this.list);
+  }
+
+  render() {
+    const {selection, net, state} = this.page.store, name = selection.row !== null ? net?.points.get(selection.row)?.name : selection.curve !== null ? net?.curveName(selection.curve) : undefined;
+    if (!name) {
+      this.key = "";
+      this.asked = 0;
+      this.words.textContent = "Click a point or a line: what made it move last is told here.";
+      return this.list.replaceChildren();
+    }
+    this.fresh(`${name}/${state}`, () => {
+      this.list.replaceChildren();
+      this.ask({t: "why", of: name}, "");
+    });
+  }
+
+  /** @param {{id: number, value: any}} message */
+  answer(message) {
+    if (message.id !== this.asked || !message.value) return;
+    const {edit, step, because, tree} = message.value;
+    this.words.textContent = edit === null ? `${tree.name} is as it came: no edit has reached it.` : `Last moved by step ${step}, “${edit}”${because ? `: ${because}` : ""}.`;
+    const list = document.createElement("ul");
+    list.className = "tree";
+    if (edit !== null) list.append(this.#item(tree));
+    this.list.replaceChildren(list);
+  }
+
+  /** @param {Cause} cause */
+  #item(cause) {
+    const item = document.createElement("li"), moved = cause.moved === null ? "" : `, moved ${millimetres(cause.moved)}`;
+    item.append(link(cause.name, () => this.page.find(cause.name)), ` ${cause.what}${moved}`);
+    const below = document.createElement("ul");
+    for (const each of cause.causes) below.append(this.#item(each));
+    if (cause.left) below.append(this.#note(`${cause.left} more moved less`));
+    if (cause.stopped.length) below.append(this.#note(`came out as they were: ${cause.stopped.slice(0, 3).join(", ")}`));
+    if (below.childElementCount) item.append(below);
+    return item;
+  }
+
+  /** @param {string} words */
+  #note(words) {
+    const item = document.createElement("li");
+    item.append(paragraph(words));
+    return item;
   }
 }

@@ -1,8 +1,13 @@
-// What is done to the chosen point by one key: how its line passes it, whose it is, that it goes.
+// What is done to the chosen point beside dragging it: how its line passes it, whose it is, that it goes,
+// and pulls by typed millimetres. What a line becomes is shown before it is made.
 
+import {button, paragraph} from "./asker.js";
 import {ADOPTED, CROSSING, PLACED} from "./net.js";
+import {typedNumber} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
+
+const MOST = 50; // m; no pull is as large
 
 /** Roles that a crossing may be given; of its two lines the first is a. @type {[string | null, string][]} */
 const ROLES = [[null, "by the rule"], ["shared", "shared: both lines are made through it"], ["drives a", "driven by the second line"], ["drives b", "driven by the first line"], ["watched", "watched: it defines neither line"]];
@@ -25,7 +30,7 @@ export const passes = (kind) => ({
   run: (/** @type {Page} */ page) => {
     const point = chosen(page), name = point ? onChosen(page, point) : null;
     if (point && name === null) page.say(`${point.name}: choose the line that is named first, then the point.`);
-    else if (name) page.apply(`${kind} at ${name}`, [{op: "set_kind", point: name, kind}]);
+    else if (name) page.panel.proposal.show(`${kind} at ${name}`, [{op: "set_kind", point: name, kind}]);
   },
 });
 
@@ -42,7 +47,7 @@ export const remove = {
   enabled: pin.enabled,
   run: (/** @type {Page} */ page) => {
     const point = chosen(page);
-    if (point) page.apply(`delete ${point.name}`, [{op: "delete", point: point.name}]);
+    if (point) page.panel.proposal.show(`delete ${point.name}`, [{op: "delete", point: point.name}]);
   },
 };
 
@@ -57,4 +62,59 @@ export function roleChoice(page, point) {
     choice.value = "";
   };
   return choice;
+}
+
+export class PointActs {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    this.page = page;
+    this.element = document.createElement("div");
+    const label = document.createElement("label");
+    this.steps = [-1, 1].map((sign) => button(`${sign < 0 ? "−" : "+"}1 mm`, () => page.keys.nudge(sign * 1e-3)));
+    this.field = document.createElement("input");
+    this.field.inputMode = "decimal";
+    this.field.title = "Outward; a minus goes inward. Enter pulls, over the radius below.";
+    this.field.onkeydown = (event) => {
+      if (event.key !== "Enter") return;
+      event.preventDefault();
+      this.#pull();
+    };
+    label.append("pull by, mm ", this.field);
+    label.className = "row";
+    this.way = paragraph("");
+    this.element.append(label, this.way);
+    box.append(this.element);
+  }
+
+  /** A knuckle, its end and a deletion are buttons that the panel makes of its table. @param {HTMLElement} buttons */
+  add(buttons) {
+    buttons.prepend(...this.steps);
+    this.element.append(buttons);
+  }
+
+  focus() {
+    this.render();
+    this.field.focus();
+    this.field.select();
+  }
+
+  render() {
+    const point = chosen(this.page);
+    this.element.hidden = !point;
+    if (!point) return;
+    const words = point.held ? this.page.store.net?.wayWords(point) ?? "" : "";
+    if (this.way.textContent !== words) this.way.textContent = words;
+    this.way.hidden = !words;
+  }
+
+  #pull() {
+    const {page} = this, {tools} = page.store, point = chosen(page), far = typedNumber(this.field), d = far / 1e3;
+    if (!point) return;
+    if (!Number.isFinite(d) || d === 0 || Math.abs(d) > MOST) return page.say(`"${this.field.value}" is no pull: type millimetres, such as 5 or -2.5`);
+    const name = `pull ${point.name} by ${far} mm`, ops = [{op: "pull", point: point.name, d, ...(tools.radius ? {radius: tools.radius} : {}), ...(tools.fair ? {fair: true} : {})}];
+    this.field.value = "";
+    // Outside the drawing Enter would pull once more.
+    if (tools.fair) page.panel.proposal.show(`${name}, answered fairly`, ops);
+    else page.apply(name, ops);
+  }
 }

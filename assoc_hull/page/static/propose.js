@@ -1,14 +1,18 @@
-// What would be made, shown as a ghost before it is: pulls that are answered fairly, lines that are led.
+// What would be made, shown as a ghost before it is: pulls that are answered fairly, lines that are led,
+// and a line re-shaped through places that are clicked, each of which can be dragged.
 
 import {Asker, button} from "./asker.js";
+import {farthestDrawn} from "./paint.js";
 import {millimetres, signed} from "./units.js";
+
+/** @typedef {import("./page.js").Page} Page */
 
 /** @typedef {{normal: number | null, moved: number, volume_change: number | null, lcb_change: number | null, notes?: string[], refused: string[]}} Cost */
 
-/** @param {Cost} cost */
-export function costWords({normal, volume_change: volume, lcb_change: lcb}) {
+/** Between its points a line may move more than they do: `drawn` is how far, m. @param {Cost} cost @param {number} [drawn] */
+export function costWords({normal, volume_change: volume, lcb_change: lcb}, drawn = 0) {
   return [
-    normal === null ? "nothing moves" : `largest movement ${millimetres(normal)} off the hull`,
+    normal === null && drawn < 1e-4 ? "nothing moves" : `largest movement ${millimetres(Math.max(normal ?? 0, drawn))} off the hull`,
     volume === null || volume === undefined ? "" : `V ${signed(volume, 2, "m³")}`,
     lcb === null || lcb === undefined ? "" : `LCB ${signed(lcb, 4, "m")}`,
   ].filter(Boolean).join(", ");
@@ -21,8 +25,13 @@ export class Proposal extends Asker {
     /** @type {{name: string, ops: object[], state: number, draft: boolean} | null} */
     this.what = null;
     this.ready = false;
-    this.make = button("Apply", () => this.apply());
-    this.give = button("Give up", () => page.dropGhost());
+    // Either way the hand is at the drawing again.
+    const back = (/** @type {() => unknown} */ act) => () => {
+      act();
+      page.activeView().upper.focus({preventScroll: true});
+    };
+    this.make = button("Apply", back(() => this.apply()));
+    this.give = button("Give up", back(() => page.dropGhost()));
     const form = document.createElement("div");
     form.className = "form";
     form.append(this.make, this.give);
@@ -31,7 +40,9 @@ export class Proposal extends Asker {
 
   /** One that is a draft is not made: it waits for more of what is asked. @param {string} name @param {object[]} ops @param {boolean} [draft] */
   show(name, ops, draft = false) {
-    this.askGhost({t: "preview", ops}, `${name}: looking what follows …`);
+    // Asked once more, as by Enter in the same field: it was seen, and is wanted.
+    if (this.ready && !draft && this.what && !this.what.draft && this.what.state === this.page.store.state && JSON.stringify(this.what.ops) === JSON.stringify(ops)) return void this.apply();
+    this.askGhost({t: "preview", ops}, `${name}: looking what follows …${/"fair":true/.test(JSON.stringify(ops)) ? " A fair answer takes some seconds; Esc gives up." : ""}`);
     this.what = {name, ops, state: this.page.store.state, draft};
     this.ready = false;
     this.page.store.changed("panel");
@@ -64,9 +75,10 @@ export class Proposal extends Asker {
   /** @param {{id: number, value: Cost}} message */
   answer(message) {
     if (message.id !== this.asked || !this.what) return;
-    const {refused, notes} = message.value;
+    const {refused, notes} = message.value, {ghost, curves} = this.page.store;
     this.ready = !refused.length;
-    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value)}.`, this.what.draft ? "Nothing is changed yet: click more places, or Enter for the answer; Esc gives up." : "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
+    if (this.ready && !this.what.draft) this.make.scrollIntoView({block: "nearest"});
+    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value, ghost ? farthestDrawn(ghost, curves) : 0)}.`, this.what.draft ? "Nothing is changed yet: click more places; Enter shows the answer, Esc gives up." : "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
     this.page.say(this.words.textContent);
     this.page.store.changed("panel");
   }
@@ -99,5 +111,130 @@ export class Proposal extends Asker {
       this.page.store.changed("panel");
     }
     return mine;
+  }
+}
+
+const AGAIN = 12; // px: a press so near a place takes hold of it
+const SNAP = 2; // px
+const PAUSE = 400; // ms without an arrow: what follows is looked at
+
+export class Shaper {
+  /** @param {Page} page */
+  constructor(page) {
+    this.page = page;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.timer = undefined;
+  }
+
+  start() {
+    const {page} = this, {store} = page, id = store.selection.curve;
+    if (id === null) return page.say("Choose a line first: click it.");
+    const line = store.net?.lineOf(id);
+    if (!line || line.axis === null) return page.say("It lies in no plane of the drawing: choose a section, a waterline or a buttock.");
+    page.dropGhost();
+    store.inserting = null;
+    store.shaping = {curve: id, places: []};
+    store.changed("overlay", "panel");
+    page.say("Click where the line is to pass, drag a place to change it, Backspace removes the last. Enter asks for the answer, Esc gives up.");
+  }
+
+  /** Takes hold of a place, or makes one; gives its number. @param {import("./view.js").View} view @param {number[] | null} place @param {number} x @param {number} y @returns {number | null} */
+  press(view, place, x, y) {
+    const {store} = this.page, shaping = store.shaping;
+    if (!shaping) return null;
+    if (!place) {
+      this.page.say(`Click in the view that shows ${store.net?.curveName(shaping.curve)} in its plane. Esc gives up.`);
+      return null;
+    }
+    this.#snap(view, place);
+    const near = shaping.places.findIndex((each) => {
+      const [u, v] = view.atPlace(each);
+      return Math.hypot(u - x, v - y) < AGAIN;
+    });
+    if (near < 0) shaping.places.push(place);
+    store.changed("overlay");
+    return near < 0 ? shaping.places.length - 1 : near;
+  }
+
+  /** On a line that crosses, where it is so near that it was meant: beside it would be two points in one place. @param {import("./view.js").View} view @param {number[]} place */
+  #snap(view, place) {
+    const {store} = this.page, curve = store.shaping?.curve ?? -1, axis = this.#along(curve), reach = SNAP / (axis === view.b ? view.sy : view.axis.s);
+    let best = null, least = reach;
+    for (const row of store.net?.rowsOf.get(curve) ?? []) {
+      const far = Math.abs((store.places.get(row)?.[axis] ?? Infinity) - place[axis]);
+      if (far < least) [best, least] = [row, far];
+    }
+    if (best !== null) place[axis] = store.places.get(best)?.[axis] ?? place[axis];
+  }
+
+  /** The coordinate that grows along a line: heights of sections, lengths of all others. @param {number} curve */
+  #along(curve) { return this.page.store.net?.lineOf(curve)?.axis === 0 ? 2 : 0; }
+
+  /** Arrows move the last place by so much (m); without one, the chosen point is the first. @param {import("./view.js").View} view @param {[number, number]} way @param {number} far */
+  nudge(view, way, far) {
+    const {store} = this.page, {shaping, selection} = store, line = store.net?.lineOf(shaping?.curve ?? -1);
+    if (!shaping || !line) return;
+    const at = shaping.places.at(-1) ?? (selection.row === null ? undefined : store.places.get(selection.row));
+    if (!at || line.axis === view.a || line.axis === view.b || view.kind === "wire") return this.page.say(`Choose a point of ${line.name}, in the drawing that shows it in its plane.`);
+    const place = [...at];
+    place[view.a] += way[0] * far * (view.kind === "body" ? view.side(at[0]) : 1);
+    place[view.b] += way[1] * far;
+    shaping.places.splice(-1, 1, place);
+    store.changed("overlay");
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.look(), PAUSE);
+  }
+
+  /** @param {import("./view.js").View} view @param {number} which @param {number[] | null} place */
+  to(view, which, place) {
+    const {store} = this.page;
+    if (place) this.#snap(view, place);
+    if (store.shaping && place) store.shaping.places[which] = place;
+    store.changed("overlay");
+  }
+
+  /** The pointer is up: the plain answer is shown, which comes at once. */
+  look() {
+    const shaping = this.page.store.shaping;
+    if (shaping?.places.length) this.page.panel.proposal.show(this.#name(), this.#ops(false), true);
+  }
+
+  back() {
+    const {store} = this.page;
+    if (!store.shaping?.places.pop()) return;
+    if (store.shaping.places.length) this.look();
+    else this.page.dropGhost();
+    store.changed("overlay");
+  }
+
+  /** The places are given: the answer is shown before it is made. */
+  finish() {
+    const {page} = this, {store} = page;
+    if (!store.shaping?.places.length) return;
+    const name = this.#name(), ops = this.#ops(store.tools.fairShapes);
+    store.shaping = null;
+    page.panel.proposal.show(name, ops);
+  }
+
+  /** Gives it up; tells whether there was anything. */
+  stop() {
+    const {page} = this, was = page.store.shaping !== null;
+    page.store.shaping = null;
+    if (was) page.dropGhost();
+    return was;
+  }
+
+  #name() {
+    const shaping = this.page.store.shaping, n = shaping?.places.length ?? 0;
+    return `re-shape ${this.page.store.net?.curveName(shaping?.curve ?? -1)} through ${n} ${n === 1 ? "place" : "places"}`;
+  }
+
+  /** It may change as far beyond the places as a pull is felt. @param {boolean} fair */
+  #ops(fair) {
+    const {store} = this.page, {curve, places} = /** @type {NonNullable<typeof store.shaping>} */ (store.shaping);
+    const axis = this.#along(curve), upright = axis === 2, c = store.curves.get(curve), reach = store.tools.radius?.[upright ? 1 : 0] ?? 1;
+    const all = c ? Array.from({length: c.n}, (_, i) => c.xyz[3 * i + axis]) : [], given = places.map((each) => each[axis]);
+    const span = [Math.max(Math.min(...given) - reach, Math.min(...all)), Math.min(Math.max(...given) + reach, Math.max(...all))];
+    return [{op: "reshape", curve: store.net?.curveName(curve) ?? "", points: [...places].sort((p, q) => p[axis] - q[axis]), span, ...(fair ? {fair} : {})}];
   }
 }

@@ -1,5 +1,7 @@
 // Numbers with their units, in words.
 
+/** What was typed, with a point or a comma; NaN where it is no number. @param {HTMLInputElement} field */
+export const typedNumber = ({value}) => Number(value.replace(",", ".").replace("−", "-").trim() || NaN);
 /** @param {number} metres */
 export const millimetres = (metres) => `${metres < 0 ? "−" : ""}${(1e3 * Math.abs(metres)).toFixed(1)} mm`;
 /** @param {number} value @param {number} digits @param {string} unit */

@@ -1,10 +1,14 @@
 // Named parameters of the hull: a wanted value is shown as a ghost, then made as one edit.
 
-import {button} from "./asker.js";
-import {millimetres, signed} from "./units.js";
+import {Asker, button, paragraph} from "./asker.js";
+import {costWords} from "./propose.js";
+import {typedNumber} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {{name: string, unit: string, meaning: string, value: number | null, low: number | null, high: number | null, reason: string | null}} Parameter */
+
+/** How much one press on more or less is. @type {Record<string, number>} */
+const STEPS = {m: 0.1, m2: 1, m3: 100, deg: 1, "-": 0.01};
 
 /** @param {Parameter} found @param {string} unit */
 function spanWords({low, high}, unit) {
@@ -12,38 +16,36 @@ function spanWords({low, high}, unit) {
   return words.filter(Boolean).join(" ") || "no limits";
 }
 
-export class Vary {
+export class Vary extends Asker {
   /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
-    this.page = page;
+    super(page, box);
     /** @type {Parameter[]} */
     this.found = [];
-    this.asked = 0;
     /** @type {"list" | "ghost" | "edit"} */
     this.what = "list";
     this.choice = document.createElement("select");
     this.choice.setAttribute("aria-label", "parameter of the hull");
     this.choice.onchange = () => this.#choose();
-    this.about = document.createElement("p");
+    this.about = paragraph("");
     this.field = document.createElement("input");
     this.field.inputMode = "decimal";
     this.field.onkeydown = (event) => {
       if (event.key === "Enter") this.#ask(false);
       if (event.key === "Escape") this.drop();
     };
-    this.words = document.createElement("p");
-    this.words.setAttribute("role", "status");
     this.form = document.createElement("div");
-    this.form.className = "vary";
+    this.form.className = "form";
     this.form.hidden = true;
-    this.form.append(this.choice, this.about, this.field, button("Preview", () => this.#ask(false)), button("Apply", () => this.#ask(true)), button("Remove ghost", () => this.drop()));
-    box.append(button("List the parameters", () => this.list()), this.form, this.words);
+    const steps = [-1, 1].map((sign) => button("", () => this.#step(sign)));
+    this.steps = steps;
+    this.form.append(this.choice, this.about, this.field, ...steps, button("Preview", () => this.#ask(false)), button("Apply", () => this.#ask(true)), button("Remove ghost", () => this.drop()));
+    box.append(button("List the parameters", () => this.all()), this.form, this.words);
   }
 
-  list() {
+  all() {
     this.what = "list";
-    this.asked = this.page.request({t: "parameters"});
-    this.words.textContent = "Looking for what may be asked …";
+    this.ask({t: "parameters"}, "Looking; some seconds on a large hull …");
   }
 
   #chosen() { return this.found.find(({name}) => name === this.choice.value); }
@@ -56,11 +58,21 @@ export class Vary {
     this.field.value = found.value.toFixed(3);
     this.field.setAttribute("aria-label", `wanted ${found.name}${unit && `,${unit}`}`);
     this.words.textContent = "";
+    this.steps.forEach((each, i) => each.textContent = `${i ? "+" : "−"}${STEPS[found.unit] ?? STEPS["-"]}${unit}`);
+  }
+
+  /** The wanted value, a step more or less; within what is possible. @param {number} sign */
+  #step(sign) {
+    const found = this.#chosen(), value = typedNumber(this.field), base = Number.isFinite(value) ? value : found?.value ?? 0;
+    if (!found) return;
+    const wanted = base + sign * (STEPS[found.unit] ?? STEPS["-"]);
+    this.field.value = Math.min(Math.max(wanted, found.low ?? -Infinity), found.high ?? Infinity).toFixed(3);
+    this.words.textContent = "Preview shows what that does.";
   }
 
   /** @param {boolean} apply */
   #ask(apply) {
-    const found = this.#chosen(), value = Number(this.field.value.replace(",", ".").trim() || NaN);
+    const found = this.#chosen(), value = typedNumber(this.field);
     if (!found) return;
     if (!Number.isFinite(value)) {
       this.words.textContent = `${this.field.value || "Nothing"} is no number: type one such as ${found.value?.toFixed(3)}`;
@@ -68,12 +80,9 @@ export class Vary {
     }
     this.page.dropGhost();
     this.what = apply ? "edit" : "ghost";
-    this.asked = this.page.request({t: "vary", set: {[found.name]: value}, apply});
-    if (!apply) {
-      this.page.wanted = this.asked;
-      this.page.shower = this;
-    }
-    this.words.textContent = apply ? "Varying the hull …" : "Making the ghost …";
+    const message = {t: "vary", set: {[found.name]: value}, apply};
+    if (apply) this.ask(message, "Varying the hull …");
+    else this.askGhost(message, "Making the ghost …");
   }
 
   /** Removes the ghost; an answer that is still to come shows none. */
@@ -86,15 +95,6 @@ export class Vary {
   }
 
   render() {}
-
-  /** The server has gone: nothing is answered any more. */
-  lost() {
-    this.asked = 0;
-    this.words.textContent = "";
-  }
-
-  /** @param {{id: number, reasons: string[]}} message */
-  refused(message) { return this.problem({id: message.id, text: message.reasons.join("\n")}); }
 
   /** @param {{id: number, value: any}} message */
   answer(message) {
@@ -109,21 +109,13 @@ export class Vary {
       this.words.textContent = `${this.found.length} parameters can be varied.`;
       return;
     }
-    const {normal, volume, volume_change: more, lcb, lcb_change: forward} = message.value;
-    const moved = normal === null ? "" : `largest movement ${millimetres(normal)} off the hull; `;
-    this.words.textContent = `Ghost: ${moved}V ${volume.toFixed(2)} m³ (${signed(more, 2, "m³")}), LCB ${lcb.toFixed(3)} m (${signed(forward, 4, "m")}). Nothing is changed yet.`;
+    const {volume, lcb} = message.value;
+    this.words.textContent = `Ghost: ${costWords(message.value)}: V ${volume.toFixed(2)} m³, LCB ${lcb.toFixed(3)} m. Nothing is changed yet.`;
   }
 
   /** @param {{id: number}} message */
   done(message) {
     if (!message.id || message.id !== this.asked) return;
-    this.list();
-  }
-
-  /** A refusal stands here, where it was asked. @param {{id: number, text: string}} message */
-  problem(message) {
-    if (!message.id || message.id !== this.asked) return false;
-    this.words.textContent = message.text;
-    return true;
+    this.all();
   }
 }

@@ -5,7 +5,8 @@ import {readFileSync} from "node:fs";
 import {test} from "node:test";
 import {ACTIONS, keyName, keyWords} from "./actions.js";
 import {evaluate} from "./hermite.js";
-import {Predictor} from "./predict.js";
+import {alike} from "./net.js";
+import {Predictor} from "./hand.js";
 import {NET, parseFrame} from "./wire.js";
 
 const given = JSON.parse(readFileSync("given.json", "utf8")), raw = readFileSync("net.frame");
@@ -66,4 +67,9 @@ test("each action has words, and each key one effect", () => {
   assert.equal(new Set(keys).size, keys.length);
   for (const {id, words, keys: own} of ACTIONS) assert.ok(id && words && own.length && own.every(keyWords), id);
   assert.equal(keyName({key: "Z", ctrlKey: true, shiftKey: true, altKey: false, metaKey: false}), "Ctrl+Shift+z");
+});
+
+test("names are compared as people write them", () => {
+  for (const [one, other] of [["WL 0.5 x ST 7", "wl 0,50 X st07"], ["BTK 2", "btk2.0"], ["ST 10", "st 010"], ["WL 1 × ST 3", "WL 1 x ST 3"]]) assert.equal(alike(one), alike(other));
+  for (const [one, other] of [["ST 1", "ST 10"], ["WL 0.5", "WL 5"], ["WL 0.05", "WL 0.5"], ["ST 100", "ST 1"], ["BTK 0.5 x WL 1 #2", "BTK 0.5 x WL 1"]]) assert.notEqual(alike(one), alike(other));
 });

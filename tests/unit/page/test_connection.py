@@ -10,6 +10,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from assoc_hull.page import PageServer
+from assoc_hull.page.connection import Connection
 from assoc_hull.page.wire import FrameKind, unpack
 from tests.conftest import Shipped
 
@@ -127,3 +128,95 @@ def test_a_message_that_is_too_long_ends_the_connection(server: PageServer) -> N
     (problem,) = (each for each in found if isinstance(each, dict) and each["t"] == "problem")
     assert "it has 70000 letters" in problem["text"]
     assert talk(server, " " * 1_100_000)[-1][0] == 1009
+
+
+class SlowPage:
+    """A socket whose page takes a message when it is let; then it keeps what came."""
+
+    def __init__(self) -> None:
+        self.came = list[str | bytes]()
+        self.takes = asyncio.Event()
+        self.closed = list[int]()
+
+    async def accept(self) -> None:
+        """Open it."""
+
+    async def receive(self) -> dict[str, Any]:
+        """Say hello once, then nothing."""
+        if not hasattr(self, "said"):
+            self.said = True
+            hello = {"t": "hello", "version": 1, "token": "t", "author": "bert"}
+            return {"type": "websocket.receive", "text": json.dumps(hello)}
+        await asyncio.Event().wait()
+        raise AssertionError
+
+    async def send_text(self, message: str) -> None:
+        """Take a text."""
+        await self.takes.wait()
+        self.came.append(message)
+
+    send_bytes = send_text
+
+    async def close(self, code: int, _: str) -> None:
+        """End it."""
+        self.closed.append(code)
+
+
+class Nobody:
+    """A session that does nothing."""
+
+    def submit(self, *_: object) -> None:
+        """Take a message."""
+
+    def leave(self, client: Connection) -> None:
+        """Forget a client."""
+        self.left = client
+
+
+def theirs(number: int) -> bytes:
+    """A frame of what somebody else does."""
+    return bytes([1, FrameKind.THEIRS]) + number.to_bytes(8, "little")
+
+
+def test_of_what_another_does_only_the_newest_frame_waits() -> None:
+    """A page that is behind skips frames; what lies between two gestures keeps its place."""
+
+    async def run() -> list[str | bytes]:
+        page = SlowPage()
+        connection = Connection(page, Nobody(), "t")  # type: ignore[arg-type]
+        task = asyncio.create_task(connection.run())
+        await asyncio.sleep(0.01)
+        connection.tell("hold")
+        await asyncio.sleep(0.01)
+        for number in range(5000):
+            connection.tell(theirs(number))
+        connection.tell("let go")
+        connection.tell(theirs(7000))
+        connection.tell(theirs(7001))
+        await asyncio.sleep(0.01)
+        page.takes.set()
+        await asyncio.sleep(0.01)
+        connection.tell(theirs(8000))
+        await asyncio.sleep(0.01)
+        task.cancel()
+        return page.came
+
+    assert asyncio.run(run()) == ["hold", theirs(4999), "let go", theirs(7001), theirs(8000)]
+
+
+def test_a_page_that_takes_nothing_is_let_go() -> None:
+    """The server does not fill its memory; the page may come again, and is told all then."""
+
+    async def run() -> tuple[list[int], Nobody, Connection]:
+        page, session = SlowPage(), Nobody()
+        connection = Connection(page, session, "t")  # type: ignore[arg-type]
+        task = asyncio.create_task(connection.run())
+        await asyncio.sleep(0.01)
+        for number in range(1200):
+            connection.tell(str(number))
+        await asyncio.wait_for(task, 5.0)
+        return page.closed, session, connection
+
+    codes, session, connection = asyncio.run(run())
+    assert codes == [1012]
+    assert session.left is connection

@@ -13,6 +13,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.drag import Drag, Live
+from assoc_hull.page.fairing import ghost_of_edits
 from assoc_hull.page.messages import (
     Apply,
     Begin,
@@ -20,8 +21,10 @@ from assoc_hull.page.messages import (
     Check,
     Commit,
     Hello,
+    Hydrostatics,
     Message,
     Parameters,
+    Preview,
     Redo,
     Sign,
     To,
@@ -365,7 +368,8 @@ def test_a_variant_is_shown_and_then_made(page: Page, hull: ah.Hull) -> None:
     listed = {each["name"]: each for each in page.text("answer")["value"]}
     breadth = hull.particulars.breadth
     assert abs(listed["breadth"]["value"] - breadth) < 1e-9
-    before, expected = hull.fingerprint, hull.vary(set={"breadth": breadth + 0.2}).hull
+    before, expected = hull.fingerprint, hull.snapshot()
+    expected.vary(set={"breadth": breadth + 0.2}, in_place=True)
     page.ask(Vary(2, {"breadth": breadth + 0.2}))
     ghost, words = page.frame(FrameKind.GHOST), page.text("answer")["value"]
     assert hull.fingerprint == before
@@ -388,3 +392,54 @@ def test_a_variant_that_cannot_be_had_is_one_sentence(page: Page, hull: ah.Hull)
         assert problem["id"] == number
         assert "error of this program" not in problem["text"]
     assert hull.fingerprint == before
+
+
+@pytest.mark.parametrize(
+    "edit",
+    [{"op": "set_kind", "point": POINT, "kind": "knuckle"},
+     {"op": "rename", "obj": "WL 0.5", "name": "WL half"}],
+    ids=["kind", "name"],
+)  # fmt: skip
+def test_what_moves_nothing_is_told_too(session: Session, edit: dict[str, object]) -> None:
+    """A new kind and a new name are shown as they are, after an undo as well."""
+    page = Page(session).enter()
+    page.ask(Apply(1, "an edit that moves nothing", [edit]))
+    page.text("done")
+    told = page.text("net")
+    page.ask(Undo(2))
+    page.text("answer")
+    assert page.text("net") != told
+
+
+def test_who_comes_while_a_point_is_held_is_told(session: Session) -> None:
+    """A page that is opened in the middle of a gesture of somebody else."""
+    anna = Page(session).enter()
+    row = anna.grip(POINT)["row"]
+    bert = Page(session, "bert").enter()
+    told = bert.text("hold")
+    assert (told["author"], told["row"]) == ("anna", row)
+
+
+def test_an_answer_that_takes_long_keeps_no_other_waiting(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A preview that is given up for a newer one is not shown, and hydrostatics come meanwhile."""
+    going, seen = threading.Event(), threading.Event()
+
+    def slow(hull: ah.Hull, edits: Any) -> Any:
+        if edits[0]["d"] == 0.5:
+            seen.set()
+            assert going.wait(30.0)
+        return ghost_of_edits(hull, edits)
+
+    monkeypatch.setattr("assoc_hull.page.session.ghost_of_edits", slow)
+    page = Page(session).enter()
+    page.ask(Preview(1, [{"op": "pull", "point": POINT, "d": 0.5}]))
+    assert seen.wait(30.0)
+    page.ask(Hydrostatics(2))
+    assert page.text("answer")["id"] == 2
+    page.ask(Preview(3, [{"op": "pull", "point": POINT, "d": 0.01}]))
+    assert page.text("answer")["id"] == 3
+    going.set()
+    page.ask(Preview(4, [{"op": "pull", "point": POINT, "d": 0.02}]))
+    assert page.text("answer")["id"] == 4

@@ -1,4 +1,7 @@
-// A refusal at its place: the library's sentence beside the point, on the free side.
+// What is said: a refusal beside its point, on the free side; and in live regions, at most once a second while
+// something is dragged, refusals at once.
+
+import {signed} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
 
@@ -30,4 +33,39 @@ export function placeBubble(page) {
 function shortened(text) {
   const reasons = text.split("\n"), more = reasons.length - REASONS;
   return more > 0 ? [...reasons.slice(0, REASONS), `and ${more} more ${more === 1 ? "reason" : "reasons"}`].join("\n") : text;
+}
+
+/** @typedef {import("./store.js").Store} Store */
+
+const PAUSE = 1000; // ms
+
+export class Speaker {
+  /** @param {HTMLElement} root */
+  constructor(root) {
+    const [polite, urgent] = ["polite", "assertive"].map((how) => {
+      const region = document.createElement("div");
+      region.className = "spoken";
+      region.setAttribute("aria-live", how);
+      root.append(region);
+      return region;
+    });
+    this.polite = polite;
+    this.urgent = urgent;
+    this.last = 0;
+    this.refused = "";
+  }
+
+  /** @param {string} words */
+  say(words) { this.polite.textContent = words; }
+
+  /** @param {Store} store */
+  listen(store) {
+    const refused = store.refusal?.text ?? store.problem ?? "";
+    if (refused !== this.refused) this.urgent.textContent = this.refused = refused;
+    const {held, overlay, net} = store, now = performance.now();
+    if (!held || !overlay || held.amount === null || now - this.last < PAUSE) return;
+    this.last = now;
+    const name = net?.points.get(held.row)?.name ?? "";
+    this.say(`${name}, ${held.how} ${(1e3 * held.amount).toFixed(1)} millimetres, ${overlay.frame.curves.size} curves follow, volume about ${signed(overlay.frame.volume, 1, "cubic metres")}`);
+  }
 }
