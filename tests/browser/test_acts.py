@@ -99,6 +99,7 @@ def test_what_was_typed_stays_until_enter_or_escape(open_page: Open, hull: ah.Hu
     assert "y 6.9" in hull.history[-1].name
     field.fill("7.1")
     field.press("Escape")
+    hand.settled()
     assert float(field.input_value()) == pytest.approx(6.9)
 
 

@@ -55,7 +55,7 @@ export const remove = {
 export function roleChoice(page, point) {
   const choice = document.createElement("select");
   choice.setAttribute("aria-label", "role of the point");
-  choice.append(new Option("change it …", ""), ...ROLES.map(([, words], i) => new Option(words, String(i))));
+  choice.append(new Option("role: change it …", ""), ...ROLES.map(([, words], i) => new Option(words, String(i))));
   choice.onchange = () => {
     const [role, words] = ROLES[Number(choice.value)];
     page.apply(`${point.name}, ${words.split(":")[0]}`, [{op: "set_role", crossing: point.name, role}]);
