@@ -582,9 +582,9 @@ FLOATING: dict[str, Given] = {
     "vary": {
         "set": {"breadth": 11.0}, "reach": None, "free": (), "bounds": None, "exact": True,
         "layers": (), "layout": None, "drivers": None, "stations": "number", "planes": "follow",
-        "tolerance": 2e-3, "fair": False, "name": None, "in_place": False,
+        "tolerance": 2e-3, "fair": False, "name": None, "ship": None, "in_place": False,
     },
-    "vary_by": {"script": {"set": {"breadth": 11.0}}, "in_place": False},
+    "vary_by": {"script": {"set": {"breadth": 11.0}}, "ship": None, "in_place": False},
 }  # fmt: skip
 PLATES: Given = {  # of a hull; that method fits a surface, and then hands on all of these
     name: MAKERS["plates.of a hull"][1][name]
