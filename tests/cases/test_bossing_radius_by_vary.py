@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.geometry.splines.curve_order import curve_folds
 
 
 @pytest.fixture(scope="module")
@@ -53,9 +52,7 @@ def test_a_touch_that_is_grown_over_by_vary_ends_two_pieces(touched: ah.Hull) ->
     assert len(there) == 1
 
 
-def test_a_radius_just_short_of_the_buttock_leaves_a_round_turn(bulk_carrier: ah.Hull) -> None:
-    """The turn gets points where new crossings stand beside it, which no place before tells."""
-    hull = larger(bulk_carrier, 0.99)
-    (curve,) = hull.lines["BTK 1"].curves
-    assert not len(curve_folds(curve.spline))
-    assert min(point.x for point in curve.points if point.z < 8.0) > 7.5
+def test_a_radius_just_short_of_the_buttock_is_refused_as_a_fold(bulk_carrier: ah.Hull) -> None:
+    """The turn would be sharper than points of the buttock can draw; by its line and place."""
+    with pytest.raises(ah.errors.RefusedEditError, match=r"BTK 1 folds back on itself at \(8\.69"):
+        bulk_carrier.vary(set={"bossing_radius": 0.99})

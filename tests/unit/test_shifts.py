@@ -106,7 +106,10 @@ def test_lines_wave_no_more_than_before(parent: ah.Hull, fuller: Shifted) -> Non
 def test_a_script_repeats_the_shift_to_the_last_bit(parent: ah.Hull, fuller: Shifted) -> None:
     """What was done is a variation by raw layers, also as text."""
     script = json.loads(json.dumps(dict(fuller.report.variation.script or {})))
-    assert parent.vary_by(script).hull.fingerprint == fuller.hull.fingerprint
+    assert (
+        parent.vary_by(script, ship=parent.particulars.name).hull.fingerprint
+        == fuller.hull.fingerprint
+    )
 
 
 def test_it_is_one_step(wigley: ah.Hull) -> None:

@@ -14,7 +14,6 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.crossings.adopted_points import insertion_index
-from assoc_hull.edit.lines.add_line import turning_points
 from assoc_hull.edit.mapped_planes import snap_into_planes
 from assoc_hull.edit.recut.carried_points import (
     DefiningPoints,
@@ -320,26 +319,6 @@ def round_turns(work: TransformationState, curve: int, found: DefiningPoints) ->
         if shadow is not None:
             found.row.insert(low + 1, -1)
             found.place.insert(low + 1, into_curve_plane(work, curve, shadow.at(at)[0]))
-    _round_by_neighbours(work, curve, found)
-
-
-def _round_by_neighbours(work: TransformationState, curve: int, found: DefiningPoints) -> None:
-    """Round what turns are left beside new points: these have no place on the curve as it was."""
-    data = curve_data_through(work, [curve])
-    if len(curve_folds(loft(data))) <= len(curve_folds(work.state.spline(curve))):
-        return
-    for low, place in reversed(turning_points(data, _headings(data.xyz))):
-        found.row.insert(low, -1)
-        found.place.insert(low, into_curve_plane(work, curve, place))
-
-
-def _headings(xyz: FloatArray) -> FloatArray:
-    """Give the directions (n, 3) at points of the circles through each and its neighbours."""
-    chord = np.diff(xyz, axis=0)
-    chord = chord / (chord * chord).sum(axis=1)[:, None]
-    both = np.concatenate([chord[:1], chord[:-1] + chord[1:], chord[-1:]])
-    found: FloatArray = both / np.sqrt((both * both).sum(axis=1))[:, None]
-    return found
 
 
 def into_curve_plane(work: TransformationState, curve: int, place: FloatArray) -> FloatArray:

@@ -145,8 +145,8 @@ def test_a_value_that_is_there_already_is_a_pin(parent: ah.Hull) -> None:
 def test_a_draught_that_is_to_stay_moves_no_waterline(more: dict[str, float]) -> None:
     """No field of a size that is set moves it, so nothing is solved for: not by 50 nm."""
     hull = ah.examples.wigley(stations=9, waterlines=6)
-    alone = hull.vary(set=more, name="x")
-    pinned = hull.vary(set={**more, "draught": 6.25}, name="x")
+    alone = hull.vary(set=more, name="x", ship="x")
+    pinned = hull.vary(set={**more, "draught": 6.25}, name="x", ship="x")
     assert pinned.hull.fingerprint == alone.hull.fingerprint
     assert pinned.report.notes == alone.report.notes
     kept = hull.vary(set={"draught": 6.5, "depth": 9.375}).hull.measure()
