@@ -81,7 +81,7 @@ export class Past extends Asker {
     const list = document.createElement("ol");
     list.className = "steps";
     const first = {number: 0, parent: 0, name: "the hull as it came", way: 1, author: "", time: "", normal: null};
-    for (const step of [...found.steps].reverse().concat(found.older ? [] : [first])) {
+    for (const step of [...found.steps].reverse().concat([first])) {
       const item = document.createElement("li"), names = found.labels.filter((each) => each.step === step.number).map(({name}) => name);
       const here = step.number === found.head, note = here ? "the present state" : step.way < 0 ? "taken back" : step.way ? "" : `on a branch from step ${step.parent}`;
       const title = here ? paragraph(step.name, "now") : link(step.name, () => this.#go(step.number));
@@ -95,7 +95,7 @@ export class Past extends Asker {
       }
       list.append(item);
     }
-    const more = found.older ? [paragraph(`${found.older} older steps are not listed.`)] : [];
+    const more = found.older ? [paragraph(`${found.older} older steps, between the last two, are not listed.`)] : [];
     // The list is made anew: who is in it with the keys stays in it.
     const at = this.box.ownerDocument.activeElement, label = at instanceof HTMLElement && this.list.contains(at) ? at.getAttribute("aria-label") ?? at.textContent : null;
     this.list.replaceChildren(list, ...more);
