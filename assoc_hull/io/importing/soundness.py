@@ -346,48 +346,53 @@ def greatest_note(state: HullState, noise: float) -> tuple[str, ...]:
     `noise` (m) is what the file leaves open anyway. Where the greatest breadth lies between unequal
     offsets, a smooth line passes both.
     """
-    passed = []
-    book = AddressBook(state)
-    for curve in state.live("curves").tolist():
-        if state.family(state.line_of(curve)).name not in ("sections", "waterlines"):
-            continue
-        spline = state.spline(curve)
-        places = sample(spline, _FINE)[1]
-        widest, most = places[int(places[:, 1].argmax())], float(spline.xyz[:, 1].max())
-        if widest[1] - most > noise:
-            passed.append((float(widest[1]) - most, book.curve_name(curve), most, _at(widest)))
-    if not passed:
-        return ()
-    passed.sort(reverse=True)
-    some = "; ".join(
-        f"{name} by {1e3 * over:.1f} mm over {most:.6g} m, at {place}"
-        for over, name, most, place in passed[:_NAMED]
+    passed = _between_points(state, ("sections", "waterlines"), 1, 1.0, noise)
+    return _told(
+        passed, "broader between given points than at the greatest of them", "over {:.6g} m"
     )
-    rest = f"; and {len(passed) - _NAMED} more, by less" if len(passed) > _NAMED else ""
-    return (f"broader between given points than at the greatest of them: {some}{rest}",)
 
 
 def deepest_note(state: HullState, noise: float) -> tuple[str, ...]:
     """Tell which sections run lower between their points than at any of them, as under a flat."""
-    passed = []
+    passed = _between_points(state, ("sections",), 2, -1.0, noise)
+    return _told(
+        passed, "lower between given points than at the lowest of them", "under z = {:.6g} m"
+    )
+
+
+_Passed = list[tuple[float, str, float, str]]
+"""By how much a line passes the outermost of its points, m; its name; that point, m; the place."""
+
+
+def _between_points(
+    state: HullState, families: tuple[str, ...], axis: int, sense: float, noise: float
+) -> _Passed:
+    """Give the lines that go farther along an axis between their points, the farthest first."""
+    passed: _Passed = []
     book = AddressBook(state)
     for curve in state.live("curves").tolist():
-        if state.family(state.line_of(curve)).name != "sections":
+        if state.family(state.line_of(curve)).name not in families:
             continue
         spline = state.spline(curve)
         places = sample(spline, _FINE)[1]
-        lowest, least = places[int(places[:, 2].argmin())], float(spline.xyz[:, 2].min())
-        if least - lowest[2] > noise:
-            passed.append((least - float(lowest[2]), book.curve_name(curve), least, _at(lowest)))
+        farthest = places[int((sense * places[:, axis]).argmax())]
+        most = float((sense * spline.xyz[:, axis]).max())
+        if sense * farthest[axis] - most > noise:
+            over = sense * float(farthest[axis]) - most
+            passed.append((over, book.curve_name(curve), sense * most, _at(farthest)))
+    return sorted(passed, reverse=True)
+
+
+def _told(passed: _Passed, what: str, limit: str) -> tuple[str, ...]:
+    """Say it in one note, of the first lines by name; none where no line does."""
     if not passed:
         return ()
-    passed.sort(reverse=True)
     some = "; ".join(
-        f"{name} by {1e3 * under:.1f} mm under z = {least:.6g} m, at {place}"
-        for under, name, least, place in passed[:_NAMED]
+        f"{name} by {1e3 * over:.1f} mm {limit.format(most)}, at {place}"
+        for over, name, most, place in passed[:_NAMED]
     )
     rest = f"; and {len(passed) - _NAMED} more, by less" if len(passed) > _NAMED else ""
-    return (f"lower between given points than at the lowest of them: {some}{rest}",)
+    return (f"{what}: {some}{rest}",)
 
 
 def _examine_cells(state: HullState, found: Findings, drawn: bool) -> None:
