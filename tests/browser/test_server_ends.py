@@ -8,9 +8,10 @@ import sys
 from pathlib import Path
 
 import attrs
-from playwright.sync_api import Browser
+from playwright.sync_api import Browser, WebSocketRoute
 
 import assoc_hull as ah
+from assoc_hull.page import PageServer
 from tests.browser.conftest import READY, Hand
 
 POINT = "WL 0.625 x ST 16"
@@ -82,3 +83,32 @@ def test_a_page_comes_back_by_itself_after_its_server_was_killed(
     assert [step.author for step in opened.history] == ["anna", "anna"]
     assert opened.verify() == ()
     opened.close()
+
+
+def test_a_page_is_open_only_when_the_hull_has_come(browser: Browser, hull: ah.Hull) -> None:
+    """What is taken hold of before would be let go by the hull that comes."""
+    kept = list[bytes]()
+    context = browser.new_context(bypass_csp=True)
+    page = context.new_page()
+
+    def hold(socket: WebSocketRoute) -> None:
+        """Let the words of the server through, and keep back what it draws."""
+        behind = socket.connect_to_server()
+        behind.on_message(
+            lambda sent: kept.append(sent) if isinstance(sent, bytes) else socket.send(sent)
+        )
+        routes.append(socket)
+
+    routes = list[WebSocketRoute]()
+    page.route_web_socket("**/socket", hold)
+    with PageServer(hull, author="anna") as server:
+        page.goto(server.address)
+        hand = Hand(page, server)
+        hand.until("p => p.message !== null && p.store.history")
+        page.wait_for_timeout(200.0)
+        assert kept
+        assert hand.ask("p => [p.store.connection, p.hand.free]") == ["connecting", False]
+        for sent in kept:
+            routes[0].send(sent)
+        hand.until("p => p.store.connection === 'open' && p.hand.free")
+        context.close()

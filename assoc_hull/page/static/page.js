@@ -105,7 +105,6 @@ export class Page {
   #told(message) {
     const {store, hand} = this;
     if (message.t === "session") {
-      store.connection = "open";
       store.file = message.file;
       store.changed("panel");
     } else if (message.t === "net") this.message = message;
@@ -157,6 +156,7 @@ export class Page {
     if (frame.kind === NET) {
       const first = store.net === null, net = new Net(this.message);
       hand.drop();
+      store.connection = "open"; // what was held before is dropped
       store.adopt(net, frame);
       this.dropGhost();
       if (!this.options.within) this.root.ownerDocument.title = `${net.particulars.name} – fairing page`;
