@@ -64,8 +64,8 @@ _PATIENCE, _LOOK, _ASK = 30.0, 0.5, 3.0
 """s: how long a worker is waited for; how often it is looked whether the scheduler is there, and
 asked how many workers it has."""
 
-_STALL = 120.0
-"""s: after so long, and ten times what the slowest batch took, one that says nothing is lost."""
+_STALL, _SLOWER = 120.0, 10.0
+"""One that says nothing is lost after so long, s, and so many times what the slowest batch took."""
 
 _SETTINGS = {"distributed.worker.profile.enabled": False}
 _THREADS = {"NUMBA_NUM_THREADS": "1"}
@@ -251,7 +251,7 @@ class _Hands:
                 future = self.back.get(timeout=_LOOK)
             except Empty:
                 self.require_scheduler()
-                if time.monotonic() - self.heard > _STALL + 10.0 * self.slowest:
+                if time.monotonic() - self.heard > _STALL + _SLOWER * self.slowest:
                     self._give_up_waiting()
                     return ()
             else:

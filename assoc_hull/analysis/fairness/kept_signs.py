@@ -27,9 +27,6 @@ __all__ = ["KeptSigns"]
 _SETS = 12
 """Sets of passed bounds that are tried: they may come in turns."""
 
-_BOX_SETS = 8
-"""Sets of points at their limits that are tried for each of these: the next one goes on."""
-
 
 @attrs.frozen(eq=False)
 class KeptSigns:
@@ -85,6 +82,6 @@ class KeptSigns:
             before, k = passed, csr_array(rate[passed])
             matrix = csr_array(alone + k.T @ (diags_array(weight[passed]) @ k))
             gradient = k.T @ (weight[passed] * beyond[passed])
-            solved = solve_in_box(matrix, gradient, self.low, self.high, side, sets=_BOX_SETS)
+            solved = solve_in_box(matrix, gradient, self.low, self.high, side)
             found, side = solved.values, solved.side
         return found

@@ -68,6 +68,7 @@ def test_workers_that_say_nothing_are_not_waited_for(
 ) -> None:
     """They stand still, and the scheduler believes that they work; later all goes on."""
     monkeypatch.setattr(dask_cluster, "_STALL", 0.2)
+    monkeypatch.setattr(dask_cluster, "_SLOWER", 1.0)
     with Client(cluster, set_as_default=False) as client:
         pids = list(client.run(os.getpid).values())
 
