@@ -563,6 +563,7 @@ def held_up(line: LineSource, axis: int, near: float = _TOLERANCE) -> LineSource
     freeze(kind, direction)
     return attrs.evolve(line, kind=kind, direction=direction)
 
+
 _UPRIGHT_SIDE = 0.1
 """A side that widens by less than this part of its height stands upright."""
 
