@@ -713,11 +713,12 @@ def _keel_profile(table: OffsetTable) -> LineSource | None:
             at = len(x) if end else 0
             x, z = np.insert(x, at, np.full(len(up), x[-1 if end else 0])), np.insert(z, at, up)
             kind = np.insert(kind, len(kind) if end else 0, [int(PointKind.SMOOTH)] * len(up))
-    return LineSource.make(
+    line = LineSource.make(
         "boundary", "profile", np.column_stack([x, np.zeros(len(x)), z]),
         plane=((0.0, 1.0, 0.0), 0.0), boundary=BoundaryKind.END, kind=kind.tolist(),
         tolerance=length_factor(table.length) * _TOLERANCE,
     )  # fmt: skip
+    return held_up(line, 2, line.tolerance if isinstance(line.tolerance, float) else _TOLERANCE)
 
 
 def _level_keel(table: OffsetTable) -> FloatArray:
