@@ -352,7 +352,7 @@ def _form_rows(
 ) -> Iterator[tuple[Cell, ...]]:
     for row in report.parts[part].rows:
         number, entry = row.value.number, row.entry
-        name = entry.name
+        name = entry.placed_name
         if entry.symbol == "MTC":
             # Form parameters know no KG: one document has one MTC, that of its hydrostatics.
             number = float(design.columns["mtc"][0])

@@ -210,6 +210,17 @@ def test_one_document_has_one_moment_to_trim(hull: ah.Hull) -> None:
         assert value.value == pytest.approx(told, rel=1e-12)
 
 
+def test_places_along_the_ship_say_from_where_they_count(hull: ah.Hull) -> None:
+    """LCB in % counts from midship and LCF in m from AP: each says so, with its direction."""
+    rows = [row for table in made(hull, "form")[0].tables for row in table.rows]
+    names = {str(row[0]): str(row[1]) for row in rows}
+    assert names["LCB"] == "centre of buoyancy, from midship, + forward"
+    assert names["LCF"] == "centre of flotation, from AP, + forward"
+    along = [row for row in rows if str(row[0]).startswith(("LCB", "LCF", "X"))]
+    for row in along:
+        assert str(row[1]).endswith((", + forward", ", + aft")) or row[0] == "LCF-LCB", row
+
+
 def test_a_hull_under_suspicion_is_not_called_sound(tmp_path: Path) -> None:
     """The verdict of the import stands in its booklet, with the suspicions."""
     boat = trawler(tmp_path)
