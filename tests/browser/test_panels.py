@@ -80,6 +80,22 @@ def test_an_edit_made_after_an_undo_leaves_a_branch(open_page: Open, hull: ah.Hu
     assert hull.fingerprint == now
 
 
+def test_comparing_right_after_an_edit_is_answered(open_page: Open, hull: ah.Hull) -> None:
+    """The list is renewed a moment after each edit: neither answer is lost to the other."""
+    hand = open_page(hull)
+    pull(hand, 0.02)
+    box = opened(hand, "History")
+    box.get_by_text("pull by hand").first.wait_for()
+    hand.ask(
+        "async (p, name) => { p.apply('once more', [{op: 'pull', point: name, d: 0.01}]);"
+        " while (p.store.history.edits < 2) await new Promise(done => setTimeout(done, 5));"
+        " p.panel.past.list.querySelector('[aria-label^=compare]').click(); }", POINT,
+    )  # fmt: skip
+    box.get_by_text("Dashed: the hull as it was then").wait_for()
+    box.get_by_text("once more").first.wait_for()
+    assert hand.ask("p => p.store.ghost.curves.size") > 20
+
+
 def test_going_back_over_edits_of_others_is_refused_in_the_history(
     open_page: Open, hull: ah.Hull
 ) -> None:

@@ -33,7 +33,7 @@ export class Asker {
   constructor(page, box) {
     this.page = page;
     this.box = box;
-    this.asked = 0;
+    this.asked = this.ghost = 0;
     this.key = "";
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
@@ -54,7 +54,7 @@ export class Asker {
   askGhost(message, words) {
     this.page.dropGhost();
     this.ask(message, words);
-    this.page.wanted = this.asked;
+    this.page.wanted = this.ghost = this.asked;
     this.page.shower = this;
   }
 
@@ -73,15 +73,18 @@ export class Asker {
     this.key = this.words.textContent = "";
   }
 
-  /** The ghost was taken away, by Esc or by another. */
-  dropped() { this.words.textContent = ""; }
+  /** The ghost was taken away, by Esc or by another: an answer that is still to come is of none. */
+  dropped() {
+    if (this.asked === this.ghost) this.asked = 0;
+    this.words.textContent = "";
+  }
 
   /** @param {any} _message */
   done(_message) {}
 
-  /** A refusal stands here, where it was asked. @param {{id: number, text: string}} message */
+  /** A refusal stands here, where it was asked; that of a ghost that was taken away nowhere. @param {{id: number, text: string}} message */
   problem(message) {
-    if (!message.id || message.id !== this.asked) return false;
+    if (!message.id || message.id !== this.asked) return message.id > 0 && message.id === this.ghost;
     this.words.textContent = message.text;
     return true;
   }

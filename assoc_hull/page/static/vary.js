@@ -88,12 +88,6 @@ export class Vary extends Asker {
   /** Removes the ghost; an answer that is still to come shows none. */
   drop() { this.page.dropGhost(); }
 
-  /** It was removed, here or elsewhere. */
-  dropped() {
-    if (this.what === "ghost") this.asked = 0;
-    this.words.textContent = "";
-  }
-
   render() {}
 
   /** @param {{id: number, value: any}} message */
