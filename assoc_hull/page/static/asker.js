@@ -46,6 +46,7 @@ export class Asker {
 
   /** @param {object} message @param {string} words */
   ask(message, words) {
+    this.page.keys.finish(); // or the server would let go of what is in hand
     this.asked = this.page.request(message);
     this.words.textContent = words;
   }
@@ -64,7 +65,7 @@ export class Asker {
     if (!this.open || store.connection !== "open" || store.held || !store.net || key === this.key) return;
     this.key = key;
     clearTimeout(this.timer);
-    this.timer = setTimeout(load, PAUSE);
+    this.timer = setTimeout(() => store.held ? this.key = "" : load(), PAUSE);
   }
 
   /** The server has gone: nothing is answered any more, and another may not be at the same state. */
@@ -73,7 +74,7 @@ export class Asker {
     this.key = this.words.textContent = "";
   }
 
-  /** The ghost was taken away, by Esc or by another: an answer that is still to come is of none. */
+  /** The ghost was taken away, by Esc or by another: no answer is waited for. */
   dropped() {
     if (this.asked === this.ghost) this.asked = 0;
     this.words.textContent = "";
@@ -82,7 +83,7 @@ export class Asker {
   /** @param {any} _message */
   done(_message) {}
 
-  /** A refusal stands here, where it was asked; that of a ghost that was taken away nowhere. @param {{id: number, text: string}} message */
+  /** A refusal stands where it was asked; that of a ghost that was taken away nowhere. @param {{id: number, text: string}} message */
   problem(message) {
     if (!message.id || message.id !== this.asked) return message.id > 0 && message.id === this.ghost;
     this.words.textContent = message.text;

@@ -19,7 +19,7 @@ export class Past extends Asker {
   /** @param {import("./page.js").Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
-    /** The list has a number of its own: it is asked for unasked, also while something else is waited for. */
+    /** The list comes unasked, also while something else is waited for. */
     this.listed = 0;
     this.name = document.createElement("input");
     this.name.setAttribute("aria-label", "name of the present state");
@@ -49,14 +49,10 @@ export class Past extends Asker {
   }
 
   /** @param {number} step */
-  #go(step) {
-    this.ask({t: "go", step}, "");
-  }
+  #go(step) { this.ask({t: "go", step}, ""); }
 
   /** @param {number} step */
-  #compare(step) {
-    this.askGhost({t: "compare", step}, "Looking back …");
-  }
+  #compare(step) { this.askGhost({t: "compare", step}, "Looking back …"); }
 
   /** @param {{id: number, value: any}} message */
   answer(message) {
