@@ -32,7 +32,7 @@ from typing import Any
 
 import attrs
 import numpy as np
-from playwright.sync_api import Browser, Error, Page, sync_playwright
+from playwright.sync_api import Browser, Error, Locator, Page, sync_playwright
 
 import assoc_hull as ah
 from tests.browser.conftest import NAMES, READY, Hand
@@ -117,6 +117,11 @@ class Server:
         return int(found) / 1024.0
 
 
+def press(button: Locator) -> None:
+    """Press a button of the panel, also where an answer above it moves it under the hand."""
+    button.evaluate("each => each.click()")
+
+
 @attrs.define(eq=False)
 class Window:
     """Somebody at a window of the page, who does things at random."""
@@ -143,7 +148,7 @@ class Window:
         titles = ("History", "Fair", "Vary", "Hydrostatics", "Why")
         for title in titles if author == "anna" else titles[:3]:
             found.hand.ask("(p, title) => p.panel.open(title)", title)
-        found.box("Vary").get_by_text("List the parameters").click()
+        press(found.box("Vary").get_by_text("List the parameters"))
         found.hand.until("p => p.panel.vary.found.length > 0")
         return found
 
@@ -152,7 +157,7 @@ class Window:
         """The page of the browser."""
         return self.hand.page
 
-    def box(self, title: str) -> Any:
+    def box(self, title: str) -> Locator:
         """Give a part of the panel."""
         return self.page.locator(f"details:has(h2:text-is('{title}'))")
 
@@ -289,15 +294,14 @@ class Window:
         which = self.rng.random()
         if which < 0.2:
             box.get_by_label("name of the present state").fill(f"s{self.rng.random():.9f}")
-            box.get_by_text("Keep under this name").click()
+            press(box.get_by_text("Keep under this name"))
         else:
             # The nearest ones: a walk over hundreds of steps is another thing.
             words = "compare with it" if which < 0.6 else None
             found = box.locator("ol.steps li:nth-child(-n+8) button")
             some = found.filter(has_text=words) if words else found.filter(has_not_text="compare")
             if count := some.count():
-                # It may be drawn anew as it is clicked: then nothing is asked.
-                some.nth(self.rng.randrange(count)).evaluate("each => each.click()")
+                press(some.nth(self.rng.randrange(count)))
         self.wait_for_answer()
         self.quiet()
 
@@ -310,7 +314,7 @@ class Window:
         self.hand.until("p => !p.panel.fair.words.textContent.endsWith('…')")
         make = box.get_by_role("button", name="Apply")
         if self.rng.random() < 0.5 and make.is_enabled():
-            make.click()
+            press(make)
             self.wait_for_answer()
         self.quiet()
 
@@ -323,7 +327,7 @@ class Window:
         box.locator("select").select_option(name)
         box.locator("input").fill(f"{value * (1.0 + self.rng.gauss(0.0, 0.004)):.4f}")
         which = "Apply" if self.rng.random() < 0.3 else "Preview"
-        box.get_by_role("button", name=which).click()
+        press(box.get_by_role("button", name=which))
         self.hand.until("p => !p.panel.vary.words.textContent.endsWith('…')")
         self.wait_for_answer()
         self.quiet()
@@ -504,17 +508,25 @@ def judge(
     return left.undone and all(shown) and not (left.findings or said or faults)
 
 
-def kills(browser: Browser, name: str, count: int, seed: int, tell: Callable[[str], None]) -> bool:
-    """Kill the server in the middle of gestures; tell whether nothing is lost."""
-    rng, (server, path, first) = random.Random(seed), served(name)
-    window = Window.open(browser, server, "anna", rng)
-    faults, back, acts, further = list[str](), list[float](), Counter[str](), 0
-    fewest, begun = 1 << 30, time.monotonic()
-    for number in range(count):
-        known = window.edit()
+@attrs.define
+class Toll:
+    """What came of servers that were killed."""
+
+    acts: Counter[str] = attrs.field(factory=Counter)
+    faults: list[str] = attrs.field(factory=list)
+    back: list[float] = attrs.field(factory=list)
+    """How long each page took to be back, s."""
+    further: int = 0
+    """So often the file was one step further than the page knew."""
+    fewest: int = 1 << 30
+    """Edits in the file when the server was killed, at least."""
+
+    def kill(self, window: Window, server: Server, number: int) -> Server:
+        """Kill a server in the middle of a gesture, after an edit; give the one that follows."""
+        known, rng, path = window.edit(), window.rng, server.path
         before = window.curves
         act = rng.choice(["drag", "drag", "commit", "commit", "undo"])
-        acts[act] += 1
+        self.acts[act] += 1
         if act == "undo":
             window.hand.ask("p => p.undo()")
         else:
@@ -528,51 +540,68 @@ def kills(browser: Browser, name: str, count: int, seed: int, tell: Callable[[st
         told = window.edits
         server.end(signal.SIGKILL)
         window.page.mouse.up()
-        found = ah.open(path)
-        there, same = len(found.history), curves_of(found) == before
-        findings = () if number % 10 else found.verify()
-        found.close()
+        there = self._look(path, f"kill {number}, {act}", known, told, before, act)
+        window.hand.until("p => p.store.connection === 'lost'")
+        server = Server.start(path)
+        begin = time.monotonic()
+        window.hand.until(
+            "(p, n) => p.store.connection === 'open' && p.hand.free"
+            " && p.store.history.edits === n", there,
+        )  # fmt: skip
+        self.back.append(time.monotonic() - begin)
+        window.quiet()
+        if not shows(window, path):
+            self.faults.append(f"kill {number}: the window shows another hull")
+        return server
+
+    def _look(
+        self, path: Path, where: str, known: int, told: int, before: dict[int, list[float]],
+        act: str,
+    ) -> int:  # fmt: skip
+        """Compare the file with what the page was told; give how many edits there are."""
+        hull = ah.open(path)
+        there, same = len(hull.history), curves_of(hull) == before
+        findings = hull.verify()
+        hull.close()
         least = {"undo": known - 1, "commit": known, "drag": known}[act]
         most = {"undo": known, "commit": known + 1, "drag": known}[act]
-        further, fewest = further + (there != told), min(fewest, there)
+        self.further += there != told
+        self.fewest = min(self.fewest, there)
         if not least <= there <= most or (act == "commit" and there < told):
-            faults.append(f"kill {number}, {act}: {known} edits known, {told} told, {there} found")
+            self.faults.append(f"{where}: {known} edits known, {told} told, {there} found")
         if there == known and not same:
-            faults.append(f"kill {number}, {act}: the file holds another hull than was told")
-        faults += [f"kill {number}: verify finds {each}" for each in findings]
-        window.hand.until("p => p.store.connection === 'lost'")
-        begin, server = time.monotonic(), Server.start(path)
-        started = time.monotonic()
+            self.faults.append(f"{where}: the file holds another hull than was told")
+        self.faults += [f"{where}: verify finds {each}" for each in findings]
+        return there
+
+
+def kills(browser: Browser, name: str, count: int, seed: int, tell: Callable[[str], None]) -> bool:
+    """Kill the server in the middle of gestures; tell whether nothing is lost."""
+    server, path, first = served(name)
+    window, toll = Window.open(browser, server, "anna", random.Random(seed)), Toll()
+    begin = time.monotonic()
+    for number in range(count):
         try:
-            window.hand.until(
-                "(p, n) => p.store.connection === 'open' && p.hand.free"
-                " && p.store.history.edits === n", there,
-            )  # fmt: skip
-            back.append(time.monotonic() - started)
-            window.quiet()
+            server = toll.kill(window, server, number)
         except Error as error:
             standing = window.hand.ask(STANDING)
-            faults.append(f"kill {number}: the page did not come back: {str(error)[:80]}; "
-                          f"{standing}")  # fmt: skip
+            toll.faults.append(f"kill {number}: {str(error)[:80]}; {standing}")
             break
-        if not shows(window, path):
-            faults.append(f"kill {number}: the window shows another hull")
         if number % 10 == 9:
-            tell(f"{name}: {number + 1} kills, {time.monotonic() - begun:.0f} s, {there} edits, "
-                 f"{len(faults)} faults; a server starts in {started - begin:.1f} s, the page is "
-                 f"back {back[-1]:.2f} s after")  # fmt: skip
+            tell(f"{name}: {number + 1} kills, {time.monotonic() - begin:.0f} s, {window.edits} "
+                 f"edits, {len(toll.faults)} faults; back after {toll.back[-1]:.2f} s")  # fmt: skip
     # That a socket cannot be opened is said by the browser itself.
     said = [each for each in window.said if "WebSocket connection to" not in each]
     window.page.context.close()
     server.end()
-    left = Remains.of(path, first)
-    waits = np.array(back or [np.nan])
-    tell(f"{name}: {sum(acts.values())} kills ({dict(acts)}), each after an edit that was told as "
-         f"made, with {fewest} edits in the file at least and {left.edits} at the end; {further} "
-         f"times the file was one step further than the page knew, faults {len(faults)}, findings "
-         f"of verify {len(left.findings)}, undone to the bit {left.undone}, other messages on the "
-         f"console {len(said)}; the page was back after {np.median(waits):.2f} s p50, "
-         f"{waits.max():.2f} s at most; load {os.getloadavg()[0]:.1f}")  # fmt: skip
+    left, waits, faults = Remains.of(path, first), np.array(toll.back or [np.nan]), toll.faults
+    tell(f"{name}: {len(toll.back)} kills ({dict(toll.acts)}), each after an edit that was told as "
+         f"made, with {toll.fewest} edits in the file at least and {left.edits} at the end; "
+         f"{toll.further} times the file was one step further than the page knew, faults "
+         f"{len(faults)}, findings of verify {len(left.findings)}, undone to the bit "
+         f"{left.undone}, other messages on the console {len(said)}; the page was back after "
+         f"{np.median(waits):.2f} s p50, {waits.max():.2f} s at most; load "
+         f"{os.getloadavg()[0]:.1f}")  # fmt: skip
     for each in (*left.findings[:5], *said[:5], *faults[:8]):
         tell(f"{name}:   {each}")
     return left.undone and not (left.findings or said or faults)
