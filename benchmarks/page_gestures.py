@@ -32,7 +32,7 @@ from typing import Any
 
 import attrs
 import numpy as np
-from playwright.sync_api import Browser, Error, Page, sync_playwright
+from playwright.sync_api import Browser, Error, Locator, Page, sync_playwright
 
 import assoc_hull as ah
 from tests.browser.conftest import NAMES, READY, Hand
@@ -56,8 +56,8 @@ STANDING = (
 )
 """What a window waits for, where it waits in vain."""
 
-PATIENCE = 120.0
-"""An act takes so long (s) at most."""
+PATIENCE = 600.0
+"""An act takes so long (s) at most: a variation of a large hull, on a machine that is busy."""
 
 WARM = 0.25
 """Part of the time after which memory is not to grow any more."""
@@ -117,6 +117,11 @@ class Server:
         return int(found) / 1024.0
 
 
+def press(button: Locator) -> None:
+    """Press a button of the panel, also where an answer above it moves it under the hand."""
+    button.evaluate("each => each.click()")
+
+
 @attrs.define(eq=False)
 class Window:
     """Somebody at a window of the page, who does things at random."""
@@ -125,7 +130,8 @@ class Window:
     author: str
     rng: random.Random
     said: list[str]
-    found: Counter[str] = attrs.field(factory=Counter)
+    took: dict[str, float] = attrs.field(factory=dict)
+    """The longest time of each act, s."""
 
     @classmethod
     def open(cls, browser: Browser, server: Server, author: str, rng: random.Random) -> Window:
@@ -142,7 +148,7 @@ class Window:
         titles = ("History", "Fair", "Vary", "Hydrostatics", "Why")
         for title in titles if author == "anna" else titles[:3]:
             found.hand.ask("(p, title) => p.panel.open(title)", title)
-        found.box("Vary").get_by_text("List the parameters").click()
+        press(found.box("Vary").get_by_text("List the parameters"))
         found.hand.until("p => p.panel.vary.found.length > 0")
         return found
 
@@ -151,7 +157,7 @@ class Window:
         """The page of the browser."""
         return self.hand.page
 
-    def box(self, title: str) -> Any:
+    def box(self, title: str) -> Locator:
         """Give a part of the panel."""
         return self.page.locator(f"details:has(h2:text-is('{title}'))")
 
@@ -168,6 +174,11 @@ class Window:
     def edits(self) -> int:
         """How many edits the page says that the hull has."""
         return int(self.hand.ask("p => p.store.history.edits"))
+
+    @property
+    def curves(self) -> dict[int, list[float]]:
+        """The places of all curves that the page shows, by their numbers."""
+        return dict(self.hand.ask("p => [...p.store.curves].map(([id, c]) => [id, [...c.xyz]])"))
 
     # ---- acts: each ends when its answer has come
 
@@ -228,6 +239,13 @@ class Window:
         self.page.mouse.up()
         self.quiet()
 
+    def edit(self) -> int:
+        """Drag until an edit is made; one may be refused, or given up. Give how many there are."""
+        begin = self.edits
+        while (edits := self.edits) <= begin:
+            self.drag()
+        return edits
+
     def arrows(self) -> None:
         """Nudge the chosen point by a burst of arrows."""
         self.hand.ask("(p, name) => p.find(name)", self.pick()[0])
@@ -253,7 +271,8 @@ class Window:
         self.hand.ask(
             "p => { p.answered = 0; p.heard ??= (p.panel.askers.push({lost() {}, done() {},"
             " render() {}, dropped() {}, refused: () => false, problem: () => false,"
-            " answer: m => { p.answered = m.id; }}), true); p.marker = p.request({t: 'steps'}); }"
+            " answer: m => { if (m.id === p.marker) p.answered = m.id; }}), true);"
+            " p.marker = p.request({t: 'steps'}); }"
         )
         self.hand.until("p => p.answered === p.marker")
 
@@ -275,15 +294,14 @@ class Window:
         which = self.rng.random()
         if which < 0.2:
             box.get_by_label("name of the present state").fill(f"s{self.rng.random():.9f}")
-            box.get_by_text("Keep under this name").click()
+            press(box.get_by_text("Keep under this name"))
         else:
             # The nearest ones: a walk over hundreds of steps is another thing.
             words = "compare with it" if which < 0.6 else None
             found = box.locator("ol.steps li:nth-child(-n+8) button")
             some = found.filter(has_text=words) if words else found.filter(has_not_text="compare")
             if count := some.count():
-                # It may be drawn anew as it is clicked: then nothing is asked.
-                some.nth(self.rng.randrange(count)).evaluate("each => each.click()")
+                press(some.nth(self.rng.randrange(count)))
         self.wait_for_answer()
         self.quiet()
 
@@ -296,7 +314,7 @@ class Window:
         self.hand.until("p => !p.panel.fair.words.textContent.endsWith('…')")
         make = box.get_by_role("button", name="Apply")
         if self.rng.random() < 0.5 and make.is_enabled():
-            make.click()
+            press(make)
             self.wait_for_answer()
         self.quiet()
 
@@ -309,7 +327,7 @@ class Window:
         box.locator("select").select_option(name)
         box.locator("input").fill(f"{value * (1.0 + self.rng.gauss(0.0, 0.004)):.4f}")
         which = "Apply" if self.rng.random() < 0.3 else "Preview"
-        box.get_by_role("button", name=which).click()
+        press(box.get_by_role("button", name=which))
         self.hand.until("p => !p.panel.vary.words.textContent.endsWith('…')")
         self.wait_for_answer()
         self.quiet()
@@ -326,21 +344,25 @@ class Window:
             self.fair: 1, self.vary: 1, self.bend: 1,
         }  # fmt: skip
         (what,) = self.rng.choices(list(acts), list(acts.values()))
+        begin, name = time.monotonic(), what.__name__
         what()
-        self.found[what.__name__] += 1
-        return what.__name__
+        self.took[name] = max(self.took.get(name, 0.0), time.monotonic() - begin)
+        return name
 
 
 def shows(window: Window, path: Path) -> bool:
     """Tell whether a window shows what is in the file, to the bit."""
     hull = ah.open(path)
-    shapes = hull.shapes()
+    found = curves_of(hull)
     hull.close()
-    curves = dict(window.hand.ask("p => [...p.store.curves].map(([id, c]) => [id, [...c.xyz]])"))
-    return sorted(curves) == shapes.curves.tolist() and all(
-        curves[number] == spline.xyz.ravel().tolist()
-        for number, spline in zip(shapes.curves.tolist(), shapes.spline.single(), strict=True)
-    )
+    return window.curves == found
+
+
+def curves_of(hull: ah.Hull) -> dict[int, list[float]]:
+    """Give the places of all curves by their numbers."""
+    shapes = hull.shapes()
+    each = zip(shapes.curves.tolist(), shapes.spline.single(), strict=True)
+    return {number: spline.xyz.ravel().tolist() for number, spline in each}
 
 
 @contextmanager
@@ -365,14 +387,42 @@ def committer(path: Path) -> Iterator[Callable[[str, float], int]]:
     run.wait(60.0)
 
 
-def gestures(browser: Browser, name: str, minutes: float, seed: int, tell: Callable[[str], None]) -> bool:  # fmt: skip  # noqa: E501
-    """Do things at random for so long; tell whether all is as it must be."""
-    rng, path = random.Random(seed), Path(tempfile.mkdtemp(), "ship.hull")
-    hull = HULLS[name]()
+def served(name: str) -> tuple[Server, Path, str]:
+    """Serve a hull from a file of its own; give its fingerprint as well."""
+    path, hull = Path(tempfile.mkdtemp(), "ship.hull"), HULLS[name]()
     first = hull.fingerprint
     hull.save(path)
     hull.close()
-    server = Server.start(path)
+    return Server.start(path), path, first
+
+
+@attrs.frozen
+class Remains:
+    """What is in a file in the end, and whether all is undone to the bit, in so many seconds."""
+
+    steps: int
+    edits: int
+    findings: tuple[str, ...]
+    undone: bool
+    seconds: float
+
+    @classmethod
+    def of(cls, path: Path, first: str) -> Remains:
+        """Look at a file, and undo all that is in it."""
+        hull = ah.open(path)
+        edits, damages = len(hull.history), hull.document.keeper.damages()  # type: ignore[union-attr]
+        steps, findings = len(hull.document.steps), (*map(str, hull.verify()), *map(str, damages))
+        begin = time.process_time()
+        if edits:
+            hull.undo(edits)
+        same, took = hull.fingerprint == first, time.process_time() - begin
+        hull.close()
+        return cls(steps, edits, findings, same, took)
+
+
+def gestures(browser: Browser, name: str, minutes: float, seed: int, tell: Callable[[str], None]) -> bool:  # fmt: skip  # noqa: E501
+    """Do things at random for so long; tell whether all is as it must be."""
+    rng, (server, path, first) = random.Random(seed), served(name)
     anna = Window.open(browser, server, "anna", rng)
     bert = Window.open(browser, server, "bert", rng)
     begin, counts, faults = time.monotonic(), Counter[str](), list[str]()
@@ -416,6 +466,9 @@ def gestures(browser: Browser, name: str, minutes: float, seed: int, tell: Calla
     for each in (anna, bert):
         each.page.context.close()
     server.end()
+    longest = {what: max(each.took.get(what, 0.0) for each in (anna, bert)) for what in counts}
+    tell(f"{name}: longest acts " + ", ".join(
+        f"{what} {took:.1f} s" for what, took in longest.items() if took))  # fmt: skip
     return judge(name, path, first, np.array(samples), counts, faults, shown, said, tell)
 
 
@@ -435,105 +488,123 @@ def judge(
     faults: list[str], shown: list[bool], said: list[str], tell: Callable[[str], None],
 ) -> bool:  # fmt: skip
     """Look at the file and at the figures; tell them."""
-    hull = ah.open(path)
-    edits, findings = len(hull.history), [*hull.verify(), *hull.document.keeper.damages()]  # type: ignore[union-attr]
-    begin = time.process_time()
-    hull.undo(edits) if edits else None
-    same, took = hull.fingerprint == first, time.process_time() - begin
-    steps = len(hull.document.steps)
-    hull.close()
+    left = Remains.of(path, first)
     warm = samples[samples[:, 0] >= WARM * samples[-1, 0]][-SAMPLES:]
     # The least of a few looks: what is not yet collected comes and goes.
     half = len(warm) // 2
     grown = [float(warm[half:, i].min() - warm[: half + 1, i].min()) for i in (1, 2)]
     tell(f"{name}: {samples[-1, 0] / 60:.1f} min, load {os.getloadavg()[0]:.1f}, acts "
          + ", ".join(f"{what} {n}" for what, n in counts.most_common()))  # fmt: skip
-    tell(f"{name}: {steps} steps, {edits} edits at the end; both windows show the file: {shown}")
+    tell(f"{name}: {left.steps} steps, {left.edits} edits at the end; both windows show the file: "
+         f"{shown}")  # fmt: skip
     tell(f"{name}: page {samples[0, 1]:.1f} MB at first, {warm[0, 1]:.1f} warm, "
          f"{samples[-1, 1]:.1f} at the end, grown {grown[0]:+.2f}; server {samples[0, 2]:.0f}, "
          f"{warm[0, 2]:.0f}, {samples[-1, 2]:.0f}, grown {grown[1]:+.1f} MB")  # fmt: skip
-    tell(f"{name}: findings of verify {len(findings)}, undone to the bit {same} ({took:.1f} s), "
-         f"messages on the console {len(said)}, faults {len(faults)}")  # fmt: skip
-    for each in (*map(str, findings[:5]), *said[:5], *faults[:5]):
+    tell(f"{name}: findings of verify {len(left.findings)}, undone to the bit {left.undone} "
+         f"({left.seconds:.1f} s), messages on the console {len(said)}, faults "
+         f"{len(faults)}")  # fmt: skip
+    for each in (*left.findings[:5], *said[:5], *faults[:5]):
         tell(f"{name}:   {each}")
-    return same and all(shown) and not (findings or said or faults)
+    return left.undone and all(shown) and not (left.findings or said or faults)
 
 
-def kills(browser: Browser, name: str, count: int, seed: int, tell: Callable[[str], None]) -> bool:
-    """Kill the server in the middle of gestures; tell whether nothing is lost."""
-    rng, path = random.Random(seed), Path(tempfile.mkdtemp(), "ship.hull")
-    hull = HULLS[name]()
-    first = hull.fingerprint
-    hull.save(path)
-    hull.close()
-    server = Server.start(path)
-    window = Window.open(browser, server, "anna", rng)
-    faults, back, acts, further = list[str](), list[float](), Counter[str](), 0
-    for number in range(count):
-        window.drag()  # one that is told as made, unless it is refused or given up
-        known = window.edits
+@attrs.define
+class Toll:
+    """What came of servers that were killed."""
+
+    acts: Counter[str] = attrs.field(factory=Counter)
+    faults: list[str] = attrs.field(factory=list)
+    back: list[float] = attrs.field(factory=list)
+    """How long each page took to be back, s."""
+    further: int = 0
+    """So often the file was one step further than the page knew."""
+    fewest: int = 1 << 30
+    """Edits in the file when the server was killed, at least."""
+
+    def kill(self, window: Window, server: Server, number: int) -> Server:
+        """Kill a server in the middle of a gesture, after an edit; give the one that follows."""
+        known, rng, path = window.edit(), window.rng, server.path
+        before = window.curves
         act = rng.choice(["drag", "drag", "commit", "commit", "undo"])
-        acts[act] += 1
+        self.acts[act] += 1
         if act == "undo":
             window.hand.ask("p => p.undo()")
         else:
             window.drag(finish=False)
             if act == "commit":
                 window.page.mouse.up()
-            elif window.page is not None:
+            else:
                 window.page.mouse.move(700.0 + rng.gauss(0.0, 40.0), 300.0)
         # So long an edit is under way, about; what the page knows by then is what was told.
         window.page.wait_for_timeout(rng.uniform(0.0, 120.0))
         told = window.edits
         server.end(signal.SIGKILL)
         window.page.mouse.up()
-        found = ah.open(path)
-        there, whole = len(found.history), number % 10 or not found.verify()
-        found.close()
+        there = self._look(path, f"kill {number}, {act}", known, told, before, act)
+        window.hand.until("p => p.store.connection === 'lost'")
+        server = Server.start(path)
+        begin = time.monotonic()
+        window.hand.until(
+            "(p, n) => p.store.connection === 'open' && p.hand.free"
+            " && p.store.history.edits === n", there,
+        )  # fmt: skip
+        self.back.append(time.monotonic() - begin)
+        window.quiet()
+        if not shows(window, path):
+            self.faults.append(f"kill {number}: the window shows another hull")
+        return server
+
+    def _look(
+        self, path: Path, where: str, known: int, told: int, before: dict[int, list[float]],
+        act: str,
+    ) -> int:  # fmt: skip
+        """Compare the file with what the page was told; give how many edits there are."""
+        hull = ah.open(path)
+        there, same = len(hull.history), curves_of(hull) == before
+        findings = hull.verify()
+        hull.close()
         least = {"undo": known - 1, "commit": known, "drag": known}[act]
         most = {"undo": known, "commit": known + 1, "drag": known}[act]
-        further += there != told
-        if not max(least, 0) <= there <= most or (act == "commit" and there < told):
-            faults.append(f"kill {number}, {act}: {known} edits known, {told} told, {there} found")
-        if not whole:
-            faults.append(f"kill {number}: verify finds something")
-        window.hand.until("p => p.store.connection === 'lost'")
-        begin, server = time.monotonic(), Server.start(path)
-        started = time.monotonic()
+        self.further += there != told
+        self.fewest = min(self.fewest, there)
+        if not least <= there <= most or (act == "commit" and there < told):
+            self.faults.append(f"{where}: {known} edits known, {told} told, {there} found")
+        if there == known and not same:
+            self.faults.append(f"{where}: the file holds another hull than was told")
+        self.faults += [f"{where}: verify finds {each}" for each in findings]
+        return there
+
+
+def kills(browser: Browser, name: str, count: int, seed: int, tell: Callable[[str], None]) -> bool:
+    """Kill the server in the middle of gestures; tell whether nothing is lost."""
+    server, path, first = served(name)
+    window, toll = Window.open(browser, server, "anna", random.Random(seed)), Toll()
+    begin = time.monotonic()
+    for number in range(count):
         try:
-            window.hand.until(
-                "(p, n) => p.store.connection === 'open' && p.hand.free"
-                " && p.store.history.edits === n", there,
-            )  # fmt: skip
-            window.quiet()
+            server = toll.kill(window, server, number)
         except Error as error:
-            faults.append(f"kill {number}: the page did not come back: {str(error)[:200]}")
+            standing = window.hand.ask(STANDING)
+            toll.faults.append(f"kill {number}: {str(error)[:80]}; {standing}")
             break
-        back.append(time.monotonic() - started)
         if number % 10 == 9:
-            tell(f"{name}: {number + 1} kills, {there} edits, {len(faults)} faults; a server "
-                 f"starts in {started - begin:.1f} s, the page is back {back[-1]:.2f} s "
-                 "after")  # fmt: skip
-            if not shows(window, path):
-                faults.append(f"kill {number}: the window shows another hull")
+            tell(f"{name}: {number + 1} kills, {time.monotonic() - begin:.0f} s, {window.edits} "
+                 f"edits, {len(toll.faults)} faults; back after {toll.back[-1]:.2f} s")  # fmt: skip
     # That a socket cannot be opened is said by the browser itself.
     said = [each for each in window.said if "WebSocket connection to" not in each]
     window.page.context.close()
     server.end()
-    found = ah.open(path)
-    edits, findings = len(found.history), [*found.verify(), *found.document.keeper.damages()]  # type: ignore[union-attr]
-    found.undo(edits) if edits else None
-    same = found.fingerprint == first
-    found.close()
-    waits = np.array(back or [np.nan])
-    tell(f"{name}: {sum(acts.values())} kills ({dict(acts)}), {edits} edits at the end, {further} "
-         f"times the file was one step further than the page knew, faults {len(faults)}, findings "
-         f"of verify {len(findings)}, undone to the bit {same}, other messages on the console "
-         f"{len(said)}; the page was back after {np.median(waits):.2f} s p50, {waits.max():.2f} s "
-         "at most")  # fmt: skip
-    for each in (*map(str, findings[:5]), *said[:5], *faults[:8]):
+    left, waits, faults = Remains.of(path, first), np.array(toll.back or [np.nan]), toll.faults
+    tell(f"{name}: {len(toll.back)} kills ({dict(toll.acts)}), each after an edit that was told as "
+         f"made, with {toll.fewest} edits in the file at least and {left.edits} at the end; "
+         f"{toll.further} times the file was one step further than the page knew, faults "
+         f"{len(faults)}, findings of verify {len(left.findings)}, undone to the bit "
+         f"{left.undone}, other messages on the console {len(said)}; the page was back after "
+         f"{np.median(waits):.2f} s p50, {waits.max():.2f} s at most; load "
+         f"{os.getloadavg()[0]:.1f}")  # fmt: skip
+    for each in (*left.findings[:5], *said[:5], *faults[:8]):
         tell(f"{name}:   {each}")
-    return same and not (findings or said or faults)
+    return left.undone and not (left.findings or said or faults)
 
 
 def main() -> int:

@@ -2,7 +2,9 @@
 
 Port and token stand in a file of the user's own, which nobody else can read, for as long as the
 server runs. It is there afterwards only where the server was killed: the next one of the same hull
-file takes both, and a page that is still open comes back by itself.
+file takes both, and a page that is still open comes back by itself. Meanwhile the page asks at that
+port, which anybody on this machine may have taken: so both hold for ten minutes only after the
+server has said last that it runs.
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ import attrs
 
 __all__ = ["KeptAddress"]
 
-_LONGEST = 86400.0  # s: nobody waits before a page for longer than a day
+_LONGEST = 600.0  # s since the server said last that it runs
 _PRIVATE = 0o600, 0o700  # a file, a folder
 
 
@@ -39,7 +41,18 @@ class KeptAddress:
         return cls(_folder() / f"{name}.json")
 
     def read(self) -> tuple[int, str] | None:
-        """Give port and token of a server that was killed; None where there was none."""
+        """Give port and token of a server that was killed not long ago; older ones are removed."""
+        kept = self._told()
+        if self.path is None or kept is None:
+            return None
+        with contextlib.suppress(OSError):
+            if 0.0 <= time.time() - self.path.lstat().st_mtime < _LONGEST:
+                return kept
+            self.path.unlink()
+        return None
+
+    def _told(self) -> tuple[int, str] | None:
+        """Give what stands in the file; None where it is not the user's own, and nobody else's."""
         if self.path is None:
             return None
         try:
@@ -50,9 +63,8 @@ class KeptAddress:
             return None
         own = not hasattr(os, "getuid") or about.st_uid == os.getuid()
         private = stat.S_ISREG(about.st_mode) and (os.name == "nt" or not about.st_mode & 0o077)
-        fresh = 0.0 <= time.time() - about.st_mtime < _LONGEST
         known = type(port) is int and 0 < port < 65536 and type(token) is str and len(token) > 40
-        return (port, token) if own and private and fresh and known else None
+        return (port, token) if own and private and known else None
 
     def keep(self, port: int, token: str) -> None:
         """Keep them; where that fails, a page does not come back by itself, and that is all."""
@@ -69,12 +81,22 @@ class KeptAddress:
                 json.dump({"port": port, "token": token}, file)
             draft.replace(self.path)
 
+    async def run_on(self) -> None:
+        """Say that the server still runs; uvicorn waits for what it calls now and then."""
+        if self.path is not None and self._is_own():
+            with contextlib.suppress(OSError):
+                os.utime(self.path)
+
     def forget(self) -> None:
         """Remove them at the end of the server: its token lets nobody in any more."""
-        kept = self.read()
-        if self.path is not None and kept is not None and kept[1] == self.token:
+        if self.path is not None and self._is_own():
             with contextlib.suppress(OSError):
                 self.path.unlink()
+
+    def _is_own(self) -> bool:
+        """Whether the file is not that of a later server of the same hull; old it may be."""
+        kept = self._told()
+        return kept is not None and kept[1] == self.token
 
 
 def _folder() -> Path:

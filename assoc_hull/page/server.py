@@ -28,6 +28,7 @@ _HOST = "127.0.0.1"
 _LONGEST = 1 << 20  # bytes of a message
 _LEFT = 60.0  # s after the last page was closed
 _LOOK_AGAIN = 0.5  # s
+_RUNS_ON = 60  # s between two times that the server says that it runs
 _SWITCH = 1e-3  # s: the worker and the loop take turns
 
 
@@ -131,6 +132,7 @@ class PageServer:
         config = uvicorn.Config(
             app, ws="websockets-sansio", ws_per_message_deflate=False, ws_max_size=_LONGEST,
             log_level="error", access_log=False, lifespan="off", timeout_graceful_shutdown=1,
+            callback_notify=self._kept.run_on, timeout_notify=_RUNS_ON,
         )  # fmt: skip
         self._server = uvicorn.Server(config)
         self._switch = sys.getswitchinterval()

@@ -80,6 +80,22 @@ def test_an_edit_made_after_an_undo_leaves_a_branch(open_page: Open, hull: ah.Hu
     assert hull.fingerprint == now
 
 
+def test_comparing_right_after_an_edit_is_answered(open_page: Open, hull: ah.Hull) -> None:
+    """The list is renewed a moment after each edit: neither answer is lost to the other."""
+    hand = open_page(hull)
+    pull(hand, 0.02)
+    box = opened(hand, "History")
+    box.get_by_text("pull by hand").first.wait_for()
+    hand.ask(
+        "async (p, name) => { p.apply('once more', [{op: 'pull', point: name, d: 0.01}]);"
+        " while (p.store.history.edits < 2) await new Promise(done => setTimeout(done, 5));"
+        " p.panel.past.list.querySelector('[aria-label^=compare]').click(); }", POINT,
+    )  # fmt: skip
+    box.get_by_text("Dashed: the hull as it was then").wait_for()
+    box.get_by_text("once more").first.wait_for()
+    assert hand.ask("p => p.store.ghost.curves.size") > 20
+
+
 def test_going_back_over_edits_of_others_is_refused_in_the_history(
     open_page: Open, hull: ah.Hull
 ) -> None:
@@ -174,3 +190,28 @@ def test_a_click_on_a_problem_goes_to_its_place(open_page: Open) -> None:
     hand.ask("p => p.activeView().upper.focus()")
     hand.page.keyboard.press("Escape")
     assert hand.ask("p => p.store.marked === null")
+
+
+def test_a_burst_of_arrows_is_made_before_what_is_asked_then(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """Whoever compares, names a state or types a value at once loses no step of the arrows."""
+    hand = open_page(hull)
+    pull(hand, 0.02)
+    box = opened(hand, "History")
+    box.get_by_text("pull by hand").first.wait_for()
+    for edits, act in enumerate(("compare", "keep", "type"), start=2):
+        hand.ask("(p, name) => p.find(name)", POINT)
+        hand.ask("p => p.activeView().upper.focus()")
+        hand.page.keyboard.press("ArrowUp")
+        hand.until("p => p.hand.gripped")
+        if act == "compare":
+            hand.ask("p => p.panel.past.list.querySelector('[aria-label^=compare]').click()")
+        elif act == "keep":
+            box.get_by_label("name of the present state").fill("nudged")
+            box.get_by_text("Keep under this name").click()
+        else:
+            edits += 1
+            hand.ask("(p, name) => p.apply('typed', [{op: 'pull', point: name, d: 0.01}])", POINT)
+        hand.until("(p, n) => p.hand.free && p.store.history.edits === n", edits)
+        assert hand.ask("p => p.store.problem") is None

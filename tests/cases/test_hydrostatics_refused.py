@@ -113,6 +113,33 @@ def test_a_section_drawn_wrongly_is_refused_by_name(spoil: Spoil, words: str) ->
     assert table[1].volume == pytest.approx(sound.volume, rel=0.02)
 
 
+def pinched(drawn: FloatArray) -> FloatArray:
+    """Half as broad between the waterlines: nothing but its area is wrong."""
+    middle = 0.5 * (drawn[:-1] + drawn[1:]) * [1.0, 0.6, 1.0]
+    return np.insert(drawn, np.arange(1, 12), middle, axis=0)
+
+
+@pytest.mark.parametrize("spoil", [opened, pinched])
+def test_levers_are_refused_where_hydrostatics_are(spoil: Spoil) -> None:
+    """One rule and one sentence; with `on_error="report"` the doubt stands in the notes of both."""
+    hull = spoilt_wigley(spoil)
+    with pytest.raises(ah.errors.BadInputError) as refused:
+        hull.hydrostatics(draught=5.5)
+    levers: dict[str, Callable[..., object]] = {
+        "stability": lambda **more: hull.stability(draught=5.5, kg=4.0, heels=[0, 20], **more),
+        "cross curves": lambda **more: hull.cross_curves(draughts=[5.5], heels=[20], **more),
+        "equilibrium": lambda **more: hull.equilibrium(2300.0, lcg=50.0, kg=3.0, **more),
+    }
+    for name, compute in levers.items():
+        with pytest.raises(ah.errors.BadInputError) as again:
+            compute()
+        if name != "equilibrium":  # she floats at another draught
+            assert again.value.what == refused.value.what, name
+        assert again.value.remedy == refused.value.remedy, name
+    told = levers["stability"](on_error="report").notes  # type: ignore[attr-defined]
+    assert refused.value.what.partition(" (and")[0] in told
+
+
 def chine_net() -> ah.Hull:
     """A hull with a chine, digitised with noise."""
     stations = [6.0, 12.0, 18.0, 24.0, 30.0, 36.0, 42.0, 48.0]

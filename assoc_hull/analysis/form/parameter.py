@@ -184,6 +184,12 @@ class FormParameter:
     digits: int
     compute: Callable[..., MeasuredValue]
 
+    @property
+    def placed_name(self) -> str:
+        """The name, and of a place along the ship from where it counts and which way is plus."""
+        along = self.datum.endswith(("+ forward", "+ aft"))
+        return f"{self.name}, {self.datum}" if along else self.name
+
 
 def parameter(
     symbol: str,

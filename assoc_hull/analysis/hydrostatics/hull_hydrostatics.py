@@ -54,6 +54,7 @@ __all__ = [
     "HydrostaticIntegrals",
     "RecordSetting",
     "Values",
+    "doubts_of",
     "hydrostatic_table",
     "hydrostatics",
     "integral_changes",
@@ -637,12 +638,34 @@ def table_without_doubts(
     if on_error == "report":
         positions, told = kept_dry(positions, body.limits, header.length)
     table = table_of(body, positions, header, shape=shape, estimate=estimate)
-    doubts = tuple(body.doubts(planes_of(positions, header.length), estimate))
-    if doubts and on_error == "refuse":
-        more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
-        raise BadInputError(doubts[0] + more, _WHERE, _remedy(body, header, positions))
+    doubts = doubts_of(body, header, positions, on_error, _WHERE, by_numbers=estimate)
     assumed = body.assumed if isinstance(body, Flotation | TunnelledBody) else ()
     return attrs.evolve(table, notes=(*told, *assumed, *doubts, *_beyond_one(table)))
+
+
+def doubts_of(
+    body: FloatingBody,
+    header: HydrostaticHeader,
+    positions: Sequence[FloatingPosition],
+    on_error: str,
+    where: str,
+    *,
+    by_numbers: bool = True,
+) -> tuple[str, ...]:
+    """Give the doubts about a hull: one rule and one sentence for hydrostatics and stability.
+
+    `by_numbers`: also where the same value, computed in two ways, differs.
+
+    Raises
+    ------
+    BadInputError
+        There are some, and they are to be refused.
+    """
+    doubts = tuple(body.doubts(planes_of(positions, header.length), by_numbers))
+    if doubts and on_error == "refuse":
+        more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
+        raise BadInputError(doubts[0] + more, where, _remedy(body, header, positions))
+    return doubts
 
 
 def _remedy(

@@ -28,7 +28,6 @@ from assoc_hull.analysis.stability.sinkage_and_trim import DisplacingHull
 from assoc_hull.arguments import choice
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.floating.immersion import FloatingPlanes
 
 __all__ = [
     "HEELS",
@@ -38,7 +37,6 @@ __all__ = [
     "case_of",
     "checked_on_error",
     "condition_of",
-    "doubts_of",
     "heels_of",
 ]
 
@@ -74,23 +72,6 @@ def heels_of(heels: object) -> FloatArray:
 def checked_on_error(on_error: object) -> None:
     """Refuse what is no way to deal with doubts, before anything is computed."""
     choice(on_error, "on_error", get_args(OnError), _WHERE)
-
-
-def doubts_of(body: FloatingBody, planes: FloatingPlanes, on_error: str) -> tuple[str, ...]:
-    """Give the doubts about a hull.
-
-    Raises
-    ------
-    BadInputError
-        There are some, and they are to be refused.
-    """
-    checked_on_error(on_error)
-    doubts = tuple(body.doubts(planes, numbers=False))
-    if doubts and on_error == "refuse":
-        more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
-        remedy = "mend the hull, or take the numbers with on_error='report' (--on-error report)"
-        raise BadInputError(doubts[0] + more, _WHERE, remedy)
-    return doubts
 
 
 # --------------------------------------------------------------------------------------

@@ -10,10 +10,10 @@ import numpy as np
 from assoc_hull.analysis.hydrostatics.floating_body import (
     Appendage,
     FloatingBody,
-    planes_of,
     rising_numbers,
 )
 from assoc_hull.analysis.hydrostatics.flotation import body_of, header_of
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import doubts_of
 from assoc_hull.analysis.hydrostatics.record import SALT, HydrostaticHeader
 from assoc_hull.analysis.stability.condition import (
     Condition,
@@ -22,7 +22,6 @@ from assoc_hull.analysis.stability.condition import (
     case_of,
     checked_on_error,
     condition_of,
-    doubts_of,
     heels_of,
 )
 from assoc_hull.analysis.stability.righting_lever import TrimRule, float_at_heels, rough_levers
@@ -121,8 +120,7 @@ def cross_curves(
     header = header_of(hull, body, terms)
     asked = _asked(weights, draughts, number(trim_by_stern, "trim_by_stern", _WHERE), header.kg)
     found = cross_curves_of(body, header, asked, trim, wanted)
-    upright = planes_of([each.upright for each in found.conditions], header.length)
-    doubts = doubts_of(body, upright, on_error)
+    doubts = doubts_of(body, header, [each.upright for each in found.conditions], on_error, _WHERE)
     return attrs.evolve(found, notes=(*found.notes, *doubts))
 
 

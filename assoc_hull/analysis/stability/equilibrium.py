@@ -18,9 +18,9 @@ from assoc_hull.analysis.hydrostatics.floating_body import (
     Appendage,
     FloatingBody,
     FloatingPosition,
-    planes_of,
 )
 from assoc_hull.analysis.hydrostatics.flotation import body_of, header_of
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import doubts_of
 from assoc_hull.analysis.hydrostatics.record import SALT, HydrostaticHeader
 from assoc_hull.analysis.stability.condition import (
     Condition,
@@ -29,7 +29,6 @@ from assoc_hull.analysis.stability.condition import (
     case_of,
     checked_on_error,
     condition_of,
-    doubts_of,
 )
 from assoc_hull.analysis.stability.flooding import open_deck_limit
 from assoc_hull.analysis.stability.righting_lever import HeeledShip, StabilityCase, float_at_heels
@@ -118,7 +117,7 @@ def equilibrium(
     found = equilibrium_of(
         body, header, ConditionRequest(weight_in_tons(weight), None, None, ahead, aside, header.kg)
     )
-    doubts = doubts_of(body, planes_of([found.position], header.length), on_error)
+    doubts = doubts_of(body, header, [found.position], on_error, _WHERE)
     return attrs.evolve(found, notes=(*found.notes, *doubts))
 
 

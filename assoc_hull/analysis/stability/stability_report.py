@@ -18,9 +18,9 @@ from assoc_hull.analysis.hydrostatics.floating_body import (
     CLOSE_DECK,
     Appendage,
     FloatingBody,
-    planes_of,
 )
 from assoc_hull.analysis.hydrostatics.flotation import body_of, header_of
+from assoc_hull.analysis.hydrostatics.hull_hydrostatics import doubts_of
 from assoc_hull.analysis.hydrostatics.record import SALT, HydrostaticHeader
 from assoc_hull.analysis.stability.condition import (
     HEELS,
@@ -30,7 +30,6 @@ from assoc_hull.analysis.stability.condition import (
     case_of,
     checked_on_error,
     condition_of,
-    doubts_of,
     heels_of,
 )
 from assoc_hull.analysis.stability.criteria import CriteriaInput, Criterion, intact_criteria
@@ -404,8 +403,7 @@ def stability(
         header.kg,
     )
     found = stability_of(body, header, asked, trim, wanted, points)
-    upright = planes_of([found.condition.upright], header.length)
-    doubts = doubts_of(body, upright, on_error)
+    doubts = doubts_of(body, header, [found.condition.upright], on_error, _WHERE)
     return attrs.evolve(found, notes=(*found.notes, *doubts))
 
 

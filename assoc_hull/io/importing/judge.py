@@ -15,7 +15,7 @@ from assoc_hull.geometry.polylines.operations import runs_where
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.io.importing.cut_ends import examine_ends
 from assoc_hull.io.importing.proportions import examine_certainty, examine_particulars
-from assoc_hull.io.importing.soundness import examine_net, look
+from assoc_hull.io.importing.soundness import deepest_lines, examine_net, look
 from assoc_hull.io.importing.stated import stated_in
 from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict, told_verdict
 from assoc_hull.io.lines.boundary_holes import HOLE
@@ -123,6 +123,15 @@ def _swings(state: HullState, table: OffsetTable, noise: float) -> Iterator[_Swi
             yield _Swing(over[0], book.curve_name(curve), row, (below, above))
 
 
+def _examine_depths(state: HullState, table: OffsetTable, found: Findings) -> None:
+    """Take lines that hang below the keel of a table for faults: it says how deep the hull is."""
+    least = _TIMES * max(2.0 * float(table.rounding.max()), state.tolerances.adoption)
+    heights = [0.0, float(table.z[0])]
+    if table.keel is not None and np.isfinite(table.keel).any():
+        heights = [float(np.nanmin(table.keel)), float(table.z[0])]
+    found.faults.extend(deepest_lines(state, least, min(heights)))
+
+
 def _given(table: OffsetTable, row: int, points: FloatArray) -> FloatArray:
     """Give the offsets (n, 2), m, of a station that lie on a curve, with the place it begins at."""
     at = points_of_station(table, row)
@@ -166,6 +175,7 @@ def judge(
     examine_net(state, adoption, found, borders, drawn=drawn, sized=sized)
     if table is not None:
         look(lambda: examine_overshoots(state, table, found), "the sections", found)
+        look(lambda: _examine_depths(state, table, found), "the sections", found)
     look(lambda: examine_certainty(record, found), "the net", found)
     _put_causes_first(found)
     return found.verdict()

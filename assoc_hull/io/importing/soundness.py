@@ -28,6 +28,7 @@ from assoc_hull.surface.cells.net_faces import sound_cells
 
 __all__ = [
     "STUMBLES",
+    "deepest_lines",
     "deepest_note",
     "examine_net",
     "greatest_note",
@@ -358,6 +359,27 @@ def deepest_note(state: HullState, noise: float) -> tuple[str, ...]:
     return _told(
         passed, "lower between given points than at the lowest of them", "under z = {:.6g} m"
     )
+
+
+def deepest_lines(state: HullState, noise: float, floor: float) -> Iterator[ImportFinding]:
+    """Give the sections that hang below their own points, and other lines below z = `floor` (m).
+
+    Nothing of a hull lies below its keel: volume and draught would be those of another ship.
+    """
+    hanging = _between_points(state, ("sections",), 2, -1.0, noise)
+    book, named = AddressBook(state), {name for _, name, _, _ in hanging}
+    for curve, places in sampled_places(state)[1]:
+        lowest = places[int(places[:, 2].argmin())]
+        name = book.curve_name(curve)
+        if floor - lowest[2] > noise and name not in named:
+            hanging.append((floor - float(lowest[2]), name, floor, _at(lowest)))
+    for over, name, lowest_given, place in hanging:
+        what = (
+            f"hangs {1e3 * over:.4g} mm below the lowest height that the table gives it, z = "
+            f"{lowest_given:.6g} m, at {place}: give one more waterline close above the keel, or "
+            "the heights of the keel in a column 'keel'"
+        )
+        yield ImportFinding("below the keel", name, what, over)
 
 
 _Passed = list[tuple[float, str, float, str]]

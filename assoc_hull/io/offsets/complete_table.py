@@ -21,10 +21,12 @@ from assoc_hull.io.offsets.net import (
     Completion,
     adopt_completed,
     at_full_size,
+    held_up,
     net_of_lines,
     particulars_of_table,
 )
 from assoc_hull.io.offsets.table import OffsetTable
+from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
@@ -644,6 +646,22 @@ def _in_its_size(
 def _completion(table: OffsetTable) -> Completion:
     stern, stem = end_contours(table)
     profile, kinds = centre_profile(table)
+    # Sections begin on the profile: a stern or stem of few points may not sink below the keel.
+    kinds = held_up(LineSource.make("boundary", "profile", profile, kind=kinds.tolist()), 2).kind
     border = flat_of_side(table).border
     side = fair_border(table, border) if len(border) else None
-    return Completion(profile, kinds, stern, stem, flat_of_bottom(table), side)
+    bottom = _closed_border(flat_of_bottom(table), float(stern[0]), float(stem[0]))
+    return Completion(profile, kinds, stern, stem, bottom, side)
+
+
+def _closed_border(border: FloatArray, aft: float, forward: float) -> FloatArray:
+    """Lead the border of a flat of bottom, (n, 3), m, to the ends of the keel where it has breadth.
+
+    The next station is blank there: the keel rises, or the table ends.
+    """
+    parts = [border]
+    if border[0, 1] > 0.0 and aft < border[0, 0] - _UPRIGHT:
+        parts.insert(0, np.array([[aft, 0.0, 0.0]]))
+    if border[-1, 1] > 0.0 and forward > border[-1, 0] + _UPRIGHT:
+        parts.append(np.array([[forward, 0.0, 0.0]]))
+    return np.concatenate(parts)

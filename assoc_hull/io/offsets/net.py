@@ -35,6 +35,7 @@ __all__ = [
     "Completion",
     "adopt_completed",
     "at_full_size",
+    "held_up",
     "lines_of_table",
     "net_from_offsets",
     "net_of_lines",
@@ -137,6 +138,12 @@ def adopt_completed(
         corners = knuckles_of_table(full)
         sources = [_with_knuckles(each, full, corners) for each in sources]
         sources = [_straight_at_greatest(each, full) for each in sources]
+    held = {"sections": 2, "flat of bottom": 1}
+    sources = [
+        each if axis is None else held_up(each, axis)
+        for each in sources
+        for axis in (held.get(each.group, held.get(each.name)),)
+    ]
     own = sources if factor == 1.0 else _brought_back(sources, full, table, factor)
     state, report = adopt(
         own, ship, ASSOCIATIONS, tolerances or Tolerances().scaled(factor),
@@ -208,12 +215,21 @@ def _brought_back(
     """Give the lines of a table at full size at its own, each in the very plane that it gives."""
     stations = dict(zip(full.x.tolist(), table.x.tolist(), strict=True))
     levels = dict(zip(full.z.tolist(), table.z.tolist(), strict=True))
-    places = {"sections": stations, "waterlines": levels}
-    back = [each.scaled(factor, places.get(each.group, {}).get(each.offset)) for each in sources]
+    # Of deck edge and flat of side too: points a last bit out of the plane are a fault.
+    places = (stations, {full.breadth / 2.0: table.breadth / 2.0}, levels)
+    back = [each.scaled(factor, _own_place(each, places)) for each in sources]
     return [
         _at_own_places(one, each.points, stations, levels)
         for one, each in zip(back, sources, strict=True)
     ]
+
+
+def _own_place(line: LineSource, places: tuple[dict[float, float], ...]) -> float | None:
+    """Give where the plane of a line, across x, y or z, stands at the hull's own size."""
+    for axis, known in enumerate(places):
+        if line.normal is not None and line.normal[axis] == 1.0:
+            return known.get(line.offset)
+    return None
 
 
 def _at_own_places(
@@ -514,20 +530,39 @@ def _straightened(
     kind[turns], direction[turns] = int(PointKind.KNUCKLE), 0.0
     if group == "sections" and _has_chine(points, same):
         kind[1], direction[1] = int(PointKind.KNUCKLE), 0.0
-    if group == "sections" and len(points) > 2 and points[0, 1] == 0.0:
-        lower = loft(CurveData.single(points, kind.tolist(), direction))
-        dip = float(points[0, 2] - sample(lower, _FINE)[1][: _FINE + 1, 2].min())
-        # Nothing of a section lies below its keel: the bottom runs straight to the first offset.
-        if dip > near:
-            kind[1], direction[1] = int(PointKind.KNUCKLE), 0.0
-    return LineSource.make(
+    line = LineSource.make(
         group, plane_name(group, place), points, plane=(tuple(np.eye(3)[axis].tolist()), place),
         kind=kind.tolist(), direction=direction, tolerance=near,
     )  # fmt: skip
+    return held_up(line, 2, near) if group == "sections" else line
 
 
 _FINE = 16
-"""Places on the first segment of a section at which it is looked at."""
+"""Places on each segment of a line at which it is looked at."""
+
+
+def held_up(line: LineSource, axis: int, near: float = _TOLERANCE) -> LineSource:
+    """Let no part of a line lie lower along an axis than its lowest point, by more than near (m).
+
+    A smooth curve sinks where points are few, as between keel and first offset: there it turns at
+    the lower end of the segment, and where that is not enough at the upper one too, and is straight
+    between the two.
+    """
+    kind, direction = line.kind.copy(), line.direction.copy()
+    floor, last = float(line.points[:, axis].min()), len(line.points) - 1
+    while True:
+        spline = loft(CurveData.single(line.points, kind.tolist(), direction))
+        under = floor - sample(spline, _FINE)[1][:-1, axis]
+        low = int(under.argmax()) // _FINE
+        free = [k for k in (low, low + 1) if 0 < k < last and kind[k] != PointKind.KNUCKLE]
+        if under.max() <= near or not free:
+            break
+        kind[free[0]], direction[free[0]] = int(PointKind.KNUCKLE), 0.0
+    if (kind == line.kind).all():
+        return line
+    freeze(kind, direction)
+    return attrs.evolve(line, kind=kind, direction=direction)
+
 
 _UPRIGHT_SIDE = 0.1
 """A side that widens by less than this part of its height stands upright."""
@@ -678,11 +713,12 @@ def _keel_profile(table: OffsetTable) -> LineSource | None:
             at = len(x) if end else 0
             x, z = np.insert(x, at, np.full(len(up), x[-1 if end else 0])), np.insert(z, at, up)
             kind = np.insert(kind, len(kind) if end else 0, [int(PointKind.SMOOTH)] * len(up))
-    return LineSource.make(
+    line = LineSource.make(
         "boundary", "profile", np.column_stack([x, np.zeros(len(x)), z]),
         plane=((0.0, 1.0, 0.0), 0.0), boundary=BoundaryKind.END, kind=kind.tolist(),
         tolerance=length_factor(table.length) * _TOLERANCE,
     )  # fmt: skip
+    return held_up(line, 2, line.tolerance if isinstance(line.tolerance, float) else _TOLERANCE)
 
 
 def _level_keel(table: OffsetTable) -> FloatArray:

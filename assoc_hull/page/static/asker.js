@@ -33,7 +33,7 @@ export class Asker {
   constructor(page, box) {
     this.page = page;
     this.box = box;
-    this.asked = 0;
+    this.asked = this.ghost = 0;
     this.key = "";
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
@@ -46,6 +46,7 @@ export class Asker {
 
   /** @param {object} message @param {string} words */
   ask(message, words) {
+    this.page.keys.finish(); // or the server would let go of what is in hand
     this.asked = this.page.request(message);
     this.words.textContent = words;
   }
@@ -54,7 +55,7 @@ export class Asker {
   askGhost(message, words) {
     this.page.dropGhost();
     this.ask(message, words);
-    this.page.wanted = this.asked;
+    this.page.wanted = this.ghost = this.asked;
     this.page.shower = this;
   }
 
@@ -64,7 +65,7 @@ export class Asker {
     if (!this.open || store.connection !== "open" || store.held || !store.net || key === this.key) return;
     this.key = key;
     clearTimeout(this.timer);
-    this.timer = setTimeout(load, PAUSE);
+    this.timer = setTimeout(() => store.held ? this.key = "" : load(), PAUSE);
   }
 
   /** The server has gone: nothing is answered any more, and another may not be at the same state. */
@@ -73,15 +74,18 @@ export class Asker {
     this.key = this.words.textContent = "";
   }
 
-  /** The ghost was taken away, by Esc or by another. */
-  dropped() { this.words.textContent = ""; }
+  /** The ghost was taken away, by Esc or by another: no answer is waited for. */
+  dropped() {
+    if (this.asked === this.ghost) this.asked = 0;
+    this.words.textContent = "";
+  }
 
   /** @param {any} _message */
   done(_message) {}
 
-  /** A refusal stands here, where it was asked. @param {{id: number, text: string}} message */
+  /** A refusal stands where it was asked; that of a ghost that was taken away nowhere. @param {{id: number, text: string}} message */
   problem(message) {
-    if (!message.id || message.id !== this.asked) return false;
+    if (!message.id || message.id !== this.asked) return message.id > 0 && message.id === this.ghost;
     this.words.textContent = message.text;
     return true;
   }

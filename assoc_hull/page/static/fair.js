@@ -13,8 +13,6 @@ export class Fairing extends Asker {
   /** @param {import("./page.js").Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
-    /** @type {"list" | "ghost" | "edit"} */
-    this.what = "list";
     /** @type {{row: number, name: string, noise: number, radius: number[], state: number} | null} */
     this.window = null;
     this.waiting = false;
@@ -40,12 +38,11 @@ export class Fairing extends Asker {
     const words = `Take out noise of ${(1e3 * value).toFixed(1)} mm ${where}`;
     if (this.noise.textContent !== words) this.noise.textContent = words;
     if (this.window && this.window.state !== this.page.store.state) this.window = null;
-    this.make.disabled = this.what !== "ghost" || !this.window || this.waiting;
+    this.make.disabled = !this.window || this.waiting || this.asked !== this.ghost;
   }
 
   #list() {
     this.page.dropGhost();
-    this.what = "list";
     this.ask({t: "fairness"}, "Laying battens along all lines …");
   }
 
@@ -58,7 +55,6 @@ export class Fairing extends Asker {
     }
     const noise = this.#value();
     this.askGhost({t: "window", row, noise, radius}, "Fairing the window …");
-    this.what = "ghost";
     this.waiting = true;
     this.window = {row, name: point.name, noise, radius, state: store.state};
   }
@@ -66,7 +62,6 @@ export class Fairing extends Asker {
   #make() {
     const {window: found, page} = this;
     if (!found) return;
-    this.what = "edit";
     this.asked = page.apply(`fair around ${found.name}, noise ${(1e3 * found.noise).toFixed(1)} mm`, [{op: "fair", at: found.name, radius: found.radius, noise: found.noise}]);
     this.words.textContent = "Fairing the hull …";
     page.activeView().upper.focus({preventScroll: true});
@@ -98,8 +93,7 @@ export class Fairing extends Asker {
   /** @param {{id: number, value: any}} message */
   answer(message) {
     if (message.id !== this.asked || !message.value) return;
-    if (this.what === "list") return this.#show(message.value);
-    if (this.what !== "ghost") return;
+    if (this.asked !== this.ghost) return this.#show(message.value);
     const {refused, moved, points} = message.value;
     this.waiting = refused.length > 0;
     this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : `Dashed: ${costWords(message.value)}; ${moved} of ${points} points move by more than 0.1 mm. Nothing is changed yet.`;

@@ -341,6 +341,7 @@ export class Page {
 
   /** @param {string} name @param {object[]} ops */
   apply(name, ops) {
+    this.keys.finish();
     this.store.refusal = this.store.problem = null;
     return this.request({t: "apply", name: name.slice(0, 190), ops});
   }

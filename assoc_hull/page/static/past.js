@@ -19,8 +19,8 @@ export class Past extends Asker {
   /** @param {import("./page.js").Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
-    /** @type {"list" | "ghost" | "go"} */
-    this.what = "list";
+    /** The list comes unasked, also while something else is waited for. */
+    this.listed = 0;
     this.name = document.createElement("input");
     this.name.setAttribute("aria-label", "name of the present state");
     this.name.placeholder = "name of this state";
@@ -35,10 +35,7 @@ export class Past extends Asker {
   }
 
   render() {
-    this.fresh(String(this.page.store.state), () => {
-      this.what = "list";
-      this.asked = this.page.request({t: "steps"});
-    });
+    this.fresh(String(this.page.store.state), () => { this.listed = this.page.request({t: "steps"}); });
   }
 
   #keep() {
@@ -46,34 +43,29 @@ export class Past extends Asker {
       this.words.textContent = "Type a name for the state first.";
       return;
     }
-    this.what = "list";
     this.ask({t: "checkpoint", name: this.name.value.trim()}, "");
+    this.listed = this.asked;
     this.name.value = "";
   }
 
   /** @param {number} step */
-  #go(step) {
-    this.what = "go";
-    this.ask({t: "go", step}, "");
-  }
+  #go(step) { this.ask({t: "go", step}, ""); }
 
   /** @param {number} step */
-  #compare(step) {
-    this.askGhost({t: "compare", step}, "Looking back …");
-    this.what = "ghost";
-  }
+  #compare(step) { this.askGhost({t: "compare", step}, "Looking back …"); }
 
   /** @param {{id: number, value: any}} message */
   answer(message) {
+    if (message.id === this.listed) return this.#show(message.value);
     if (message.id !== this.asked) return;
-    if (this.what === "go") {
+    if (this.asked !== this.ghost) {
       this.words.textContent = "The hull is at that state; what was left is kept in this list.";
       this.page.say(this.words.textContent);
-    } else if (this.what === "ghost") {
+    } else {
       const {count, lines, volume, lcb} = message.value;
       const figures = [volume && `V ${signed(volume[1] - volume[0], 2, "m³")}`, lcb && `LCB ${signed(lcb[1] - lcb[0], 4, "m")}`].filter(Boolean).join(", ");
       this.words.textContent = count ? `Dashed: the hull as it was then. ${count} lines differ${figures ? `; since then ${figures}` : ""}. Most: ${lines.slice(0, 3).map((/** @type {string} */ each) => each.split(": ")[0]).join(", ")}. Esc takes it away.` : "Nothing differs.";
-    } else if (message.value) this.#show(message.value);
+    }
   }
 
   /** @param {{head: number, steps: Step[], older: number, labels: {name: string, step: number}[]}} found */

@@ -22,8 +22,6 @@ export class Vary extends Asker {
     super(page, box);
     /** @type {Parameter[]} */
     this.found = [];
-    /** @type {"list" | "ghost" | "edit"} */
-    this.what = "list";
     this.choice = document.createElement("select");
     this.choice.setAttribute("aria-label", "parameter of the hull");
     this.choice.onchange = () => this.#choose();
@@ -44,7 +42,6 @@ export class Vary extends Asker {
   }
 
   all() {
-    this.what = "list";
     this.ask({t: "parameters"}, "Looking; some seconds on a large hull …");
   }
 
@@ -79,7 +76,6 @@ export class Vary extends Asker {
       return;
     }
     this.page.dropGhost();
-    this.what = apply ? "edit" : "ghost";
     const message = {t: "vary", set: {[found.name]: value}, apply};
     if (apply) this.ask(message, "Varying the hull …");
     else this.askGhost(message, "Making the ghost …");
@@ -88,18 +84,12 @@ export class Vary extends Asker {
   /** Removes the ghost; an answer that is still to come shows none. */
   drop() { this.page.dropGhost(); }
 
-  /** It was removed, here or elsewhere. */
-  dropped() {
-    if (this.what === "ghost") this.asked = 0;
-    this.words.textContent = "";
-  }
-
   render() {}
 
   /** @param {{id: number, value: any}} message */
   answer(message) {
     if (message.id !== this.asked || !message.value) return;
-    if (this.what === "list") {
+    if (this.asked !== this.ghost) {
       const name = this.choice.value;
       this.found = message.value.filter((/** @type {Parameter} */ each) => each.value !== null && each.reason === null);
       this.choice.replaceChildren(...this.found.map((each) => new Option(`${each.name}${each.unit === "-" ? "" : `, ${each.unit}`}`, each.name)));

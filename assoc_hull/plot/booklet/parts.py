@@ -352,7 +352,7 @@ def _form_rows(
 ) -> Iterator[tuple[Cell, ...]]:
     for row in report.parts[part].rows:
         number, entry = row.value.number, row.entry
-        name = entry.name
+        name = entry.placed_name
         if entry.symbol == "MTC":
             # Form parameters know no KG: one document has one MTC, that of its hydrostatics.
             number = float(design.columns["mtc"][0])
@@ -512,8 +512,9 @@ def _accuracy(
          _error(design.errors[name][0] if name in design.errors else np.nan),
          "" if field.unit == "-" else field.unit, field.title)
         for name, field in FIELDS.items()
-        if not np.isnan(value := design.columns[name][0])
+        if name not in _STATED and not np.isnan(value := design.columns[name][0])
     )  # fmt: skip
+    errors = {name: each for name, each in table.errors.items() if name not in _STATED}
     tables = [
         BookTable(
             f"How far values may be off, at a draught of {at.draught_mean:.3f} m",
@@ -522,8 +523,8 @@ def _accuracy(
         ),
         BookTable(
             "How far values may be off, over the draughts",
-            (BookColumn("T", "m", 4), *(_column(name, 2) for name in table.errors)),
-            _rows([[each.draught_mean for each in table.positions], *table.errors.values()]),
+            (BookColumn("T", "m", 4), *(_column(name, 2) for name in errors)),
+            _rows([[each.draught_mean for each in table.positions], *errors.values()]),
             turned=True,
         ),
     ]  # fmt: skip
@@ -555,7 +556,11 @@ def _verdict(adoption: AdoptionReport | None) -> Iterator[tuple[str, str]]:
 
 
 _LISTED = ", listed below"
+_STATED = ("draught_mean", "trim_by_stern")
+"""Values that are stated, not computed."""
+
 _NO_ERROR = 1e-9
+_WHOLE = 1.0 + 1e-9
 
 
 def _rounded(value: float, digits: int) -> Rounded:
@@ -573,13 +578,19 @@ def _error(value: float) -> Cell:
 
 
 def _adopted(report: AdoptionReport) -> BookTable:
+    names = [each.line for each in report.lines]
     rows = tuple(
-        (each.line, float(each.given), _MM * each.deviation_median, _MM * each.deviation_p95,
-         _MM * each.deviation, _MM * each.tolerance)
-        for each in report.lines
+        # a line of several curves has a row for each
+        (each.line if names.count(each.line) == 1
+         else f"{each.line}, curve {names[:number].count(each.line) + 1}",
+         float(each.given), _MM * each.deviation_median, _MM * each.deviation_p95,
+         _MM * each.deviation, _MM * each.tolerance,
+         "beyond its tolerance" if each.tolerance_used > _WHOLE else "")
+        for number, each in enumerate(report.lines)
     )  # fmt: skip
     heads = (
         BookColumn("line"), BookColumn("points", "", 0),
         *(BookColumn(name, "mm", 2) for name in ("median", "p95", "largest", "tolerance")),
+        BookColumn("note"),
     )  # fmt: skip
     return BookTable("How far the curves pass the points they were made of", heads, rows)

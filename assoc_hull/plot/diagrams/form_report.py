@@ -104,9 +104,8 @@ class _Entry:
         number = sheet.width(number_text(row))
         room = _NUMBER - _NAME - number - 2.0
         symbol = sheet.width(row.entry.symbol, bold=True)
-        return cls(
-            row, tuple(wrap_words(sheet, row.entry.name, room - max(symbol - 17.0, 0.0), _SMALL))
-        )
+        name = row.entry.placed_name
+        return cls(row, tuple(wrap_words(sheet, name, room - max(symbol - 17.0, 0.0), _SMALL)))
 
     @property
     def tall(self) -> float:

@@ -1,8 +1,10 @@
 """The address of a killed server: kept where only the user reads it, and for the next one only."""
 
+import asyncio
 import json
 import os
 import stat
+import time
 from pathlib import Path
 
 import pytest
@@ -59,11 +61,35 @@ def test_what_does_not_fit_is_as_if_there_were_none(kept: KeptAddress, text: str
 
 
 def test_an_old_address_is_not_taken(kept: KeptAddress) -> None:
-    """Nobody waits before a page for days."""
+    """Ten minutes after the server said last that it runs; the file is removed by then."""
+    kept.keep(8123, TOKEN)
+    assert kept.path is not None
+    for age, found in ((500.0, (8123, TOKEN)), (700.0, None)):
+        os.utime(kept.path, (time.time() - age,) * 2)
+        assert kept.read() == found
+    assert not kept.path.exists()
+
+
+def test_the_address_of_a_server_that_runs_does_not_age(kept: KeptAddress) -> None:
+    """It says so now and then; one whose place another has taken says nothing for that one."""
     kept.keep(8123, TOKEN)
     assert kept.path is not None
     os.utime(kept.path, (1e9, 1e9))
+    asyncio.run(kept.run_on())
+    assert kept.read() == (8123, TOKEN)
+    KeptAddress(kept.path).keep(8124, "u" * 43)
+    os.utime(kept.path, (1e9, 1e9))
+    asyncio.run(kept.run_on())
     assert kept.read() is None
+
+
+def test_a_server_that_ran_for_long_forgets_its_address(kept: KeptAddress) -> None:
+    """Also where it could not say that it runs, as in a machine that was asleep."""
+    kept.keep(8123, TOKEN)
+    assert kept.path is not None
+    os.utime(kept.path, (1e9, 1e9))
+    kept.forget()
+    assert not kept.path.exists()
 
 
 def test_a_hull_in_memory_keeps_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -92,3 +118,18 @@ def test_a_server_after_a_killed_one_has_its_address(
         assert TOKEN in third.address
     with PageServer(ah.open(path)) as fourth:
         assert TOKEN not in fourth.address
+
+
+def test_a_server_says_that_it_runs(
+    kept: KeptAddress, shipped: Shipped, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As long as it does, its address does not age."""
+    monkeypatch.setattr("assoc_hull.page.server._RUNS_ON", 0)
+    shipped("series60_70").save(tmp_path / "ship.hull")
+    assert kept.path is not None
+    with PageServer(ah.open(tmp_path / "ship.hull")):
+        os.utime(kept.path, (1e9, 1e9))
+        end = time.monotonic() + 20.0
+        while kept.path.stat().st_mtime <= 1e9 and time.monotonic() < end:
+            time.sleep(0.05)
+        assert kept.read() is not None

@@ -14,6 +14,7 @@ from assoc_hull.cli import main
 from assoc_hull.errors import BadInputError
 from assoc_hull.plot.booklet.pages import book_pages
 from assoc_hull.plot.booklet.parts import PARTS, BookPart, BookRequest, Rounded, parts_of
+from assoc_hull.shipped.bulk_carrier_207k import bulk_carrier_207k_adopted
 from tests.trawler import trawler
 
 
@@ -209,6 +210,17 @@ def test_one_document_has_one_moment_to_trim(hull: ah.Hull) -> None:
         assert value.value == pytest.approx(told, rel=1e-12)
 
 
+def test_places_along_the_ship_say_from_where_they_count(hull: ah.Hull) -> None:
+    """LCB in % counts from midship and LCF in m from AP: each says so, with its direction."""
+    rows = [row for table in made(hull, "form")[0].tables for row in table.rows]
+    names = {str(row[0]): str(row[1]) for row in rows}
+    assert names["LCB"] == "centre of buoyancy, from midship, + forward"
+    assert names["LCF"] == "centre of flotation, from AP, + forward"
+    along = [row for row in rows if str(row[0]).startswith(("LCB", "LCF", "X"))]
+    for row in along:
+        assert str(row[1]).endswith((", + forward", ", + aft")) or row[0] == "LCF-LCB", row
+
+
 def test_a_hull_under_suspicion_is_not_called_sound(tmp_path: Path) -> None:
     """The verdict of the import stands in its booklet, with the suspicions."""
     boat = trawler(tmp_path)
@@ -220,3 +232,26 @@ def test_a_hull_under_suspicion_is_not_called_sound(tmp_path: Path) -> None:
     assert facts["findings"] == "none in the net"
     assert facts["import"].startswith("sound with suspicions (")
     assert any(note.startswith("suspicion: ") for note in part.notes)
+
+
+def test_curves_of_one_line_are_told_apart_and_those_beyond_their_tolerance_are_marked(
+    hull: ah.Hull,
+) -> None:
+    """In the table of how far curves pass the points they were made of."""
+    _, report = bulk_carrier_207k_adopted()
+    first, second, *others = report.lines
+    line = attrs.evolve(first, tolerance_used=0.5)
+    beyond = attrs.evolve(first, tolerance_used=3.9)
+    report = attrs.evolve(
+        report, lines=(line, beyond, attrs.evolve(second, tolerance_used=1.0), *others)
+    )
+    asked = BookRequest(
+        ("accuracy",), (3.0, 4.0), 4.0, None, (), 1.025, 1.0, (), "refuse", None, None, report, None
+    )
+    (part,) = parts_of(hull, asked)[0]
+    table = next(each for each in part.tables if "pass the points" in each.title)
+    assert [(row[0], row[-1]) for row in table.rows[:3]] == [
+        (f"{first.line}, curve 1", ""),
+        (f"{first.line}, curve 2", "beyond its tolerance"),
+        (second.line, ""),
+    ]

@@ -124,7 +124,7 @@ def midship_section(shape: FloatingShape) -> float:
 @parameter(
     "LCB_WL", name="Holtrop's centre of buoyancy", unit="% LWL", table="bulb and resistance",
     definition="100 (x_B - x_M) / LWL, x_M halfway between the ends of the waterline",
-    datum="from x_M, + forward", source=HOLTROP, needs=(SHAPE, "LCB", "Lpp", "LWL"),
+    datum="from the middle of LWL, + forward", source=HOLTROP, needs=(SHAPE, "LCB", "Lpp", "LWL"),
 )  # fmt: skip
 def buoyancy_on_waterline(
     shape: FloatingShape, percent: float, length: float, waterline: float

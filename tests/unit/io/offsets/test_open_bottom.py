@@ -11,8 +11,10 @@ from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
 from assoc_hull.edit.document import Document
 from assoc_hull.io.importing.import_hull import import_hull
 from assoc_hull.io.importing.options import ImportOptions
+from assoc_hull.io.importing.soundness import sampled_places
 from assoc_hull.io.offsets.net import lines_of_table
 from assoc_hull.io.offsets.read import read_offsets
+from assoc_hull.model.tables import HullState
 
 L, B, T, RAKE, RISE = 60.0, 11.0, 3.0, 8.0, 3.2
 X = np.array([0, 2, 4, 6, 8, 14, 20, 26, 32, 38, 44, 50, 52, 54, 56, 58, 60], np.float64)
@@ -86,3 +88,67 @@ def test_a_hull_that_is_out_of_the_water_is_told_as_such() -> None:
     rows = ["x_m,WL 2 m,WL 3 m,WL 4 m,keel", *(f"{x},4,5,5,1.6" for x in range(0, 60, 6))]
     _, report = read_offsets("\n".join(rows), length=54.0, draught=1.0)
     assert "open bottom" not in report.kinds("suspicions")
+
+
+def fishing_vessel(wide: float, base: str, length: float = 45.0, top: float = 4.6) -> str:
+    """A hull of eleven stations; at the base line half-breadths `wide` or less, or `base`.
+
+    `base`: what stands at z = 0 where the bottom has no flat: "0", blank, or no row at all.
+    """
+    heights = [0.0, 0.4, 1.0, 2.0, 3.2, top]
+    rows = ["station,x_m," + ",".join(f"wl_{z:g}" for z in heights)]
+    for i in range(11):
+        s = abs(i / 5.0 - 1.0)
+        flat = max(0.0, wide - 3.0 * s * s)
+        full = 4.2 * (1.0 - s**4)
+        cells = [f"{flat:.3f}" if flat else base]
+        cells += [f"{full * (1.0 - max(0.0, 1.0 - z / (1 + s)) ** 3):.3f}" for z in heights[1:]]
+        rows.append(",".join([f"{i}", f"{0.1 * length * i:g}", *cells]))
+    if base == "none":
+        rows = [",".join(row.split(",")[:2] + row.split(",")[3:]) for row in rows]
+    return "# offsets in m, station 0 = AP\n" + "\n".join(rows) + "\n"
+
+
+def lowest(state: HullState) -> float:
+    """Give the lowest place of all lines, m."""
+    return float(sampled_places(state)[0][:, 2].min())
+
+
+@pytest.mark.parametrize(
+    ("wide", "base"),
+    [(0.25, "0"), (1.0, ""), (2.5, ""), (1.0, "none")],
+    ids=["zeros", "narrow and blanks", "wide and blanks", "no row"],
+)
+def test_nothing_of_a_table_hangs_below_its_base_line(
+    wide: float, base: str, tmp_path: Path
+) -> None:
+    """Sections swung .1 to .5 m under a narrow flat or a blank, a raked stern up to 4.7 m."""
+    path = tmp_path / "vessel.csv"
+    path.write_text(fishing_vessel(wide, base))
+    state, report = import_hull(path, ImportOptions(length=45.0, draught=3.2))
+    assert lowest(state) > -1e-3
+    assert report.verdict.faults == ()
+
+
+def test_a_line_that_hangs_below_the_keel_is_a_fault(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The first line of the verdict says so, the finding how much, where, and what to give."""
+    path = tmp_path / "vessel.csv"
+    path.write_text(fishing_vessel(0.25, "0"))
+    monkeypatch.setattr("assoc_hull.io.offsets.net.held_up", lambda line, *_: line)
+    monkeypatch.setattr("assoc_hull.io.offsets.complete_table.held_up", lambda line, *_: line)
+    state, report = import_hull(path, ImportOptions(length=45.0, draught=3.2, accept=True))
+    assert str(report.verdict).startswith("not sound")
+    worst = max(each.amount or 0.0 for each in report.verdict.faults)
+    assert worst == pytest.approx(-lowest(state), abs=2e-3)
+    (told, *_) = [each for each in report.verdict.faults if each.kind == "below the keel"]
+    assert "give one more waterline close above the keel" in told.what
+
+
+def test_a_short_hull_has_its_deck_edge_in_its_plane(tmp_path: Path) -> None:
+    """Scaled up and down again it lay a last bit beside it, and the import was not sound."""
+    path = tmp_path / "vessel.csv"
+    path.write_text(fishing_vessel(1.0, "0", 60.0, 5.43))
+    _, report = import_hull(path, ImportOptions(length=60.0, draught=3.2, accept=True))
+    assert not [each for each in report.verdict.faults if each.kind == "off plane"]

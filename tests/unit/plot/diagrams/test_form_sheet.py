@@ -52,7 +52,7 @@ def test_every_value_stands_there_once(report: FormReport, sheets: list[Sheet]) 
     for row in rows:
         symbol = row.entry.symbol
         assert numbers[symbol] == [number_text(row).replace("-", "−")]
-        assert " ".join(names[symbol]) == row.entry.name
+        assert " ".join(names[symbol]) == row.entry.placed_name
         assert marks.get(symbol, []) == ([row.mark] if row.mark else [])
         assert (symbol in units) == (row.value.number is not None)
 
@@ -78,7 +78,8 @@ def test_a_part_goes_on_upon_the_next_page(sheets: list[Sheet]) -> None:
     headings = words(sheets, "label/heading")[""]
     assert "Hull form" in headings
     assert "Hull form (continued)" in headings
-    assert headings[-1] == "Notes"
+    assert "Notes" in headings
+    assert headings[-1].startswith("Notes")
 
 
 def test_words_lie_apart_and_within_the_page(sheets: list[Sheet]) -> None:
