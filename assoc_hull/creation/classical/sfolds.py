@@ -464,7 +464,7 @@ def sfolds_notes(portions: Sequence[Portion]) -> tuple[str, ...]:
             where = "is outlined beside the net" if portion.sections else "has no outline"
             found.append(
                 f"portion {portion.number} ({portion.kind}) is a body of its own: its volume is "
-                f"told here, and it {where}"
+                f"given here, and it {where}"
             )
     return tuple(found)
 

@@ -136,9 +136,9 @@ def test_numbers_are_sums_over_portions(ferry: Sfolds) -> None:
 def test_other_bodies_are_told_and_left_out_of_the_net(ferry: Sfolds) -> None:
     """A note each; the lines are those of the main body."""
     assert ferry.notes == (
-        "portion 12 (forecastle) is a body of its own: its volume is told here, "
+        "portion 12 (forecastle) is a body of its own: its volume is given here, "
         "and it is outlined beside the net",
-        "portion 13 (bossing) is a body of its own: its volume is told here, "
+        "portion 13 (bossing) is a body of its own: its volume is given here, "
         "and it is outlined beside the net",
     )
     assert len([each for each in ferry.lines() if each.group == "sections"]) == 29
