@@ -14,8 +14,8 @@ from assoc_hull.cli import main
 from assoc_hull.errors import BadInputError
 from assoc_hull.plot.booklet.pages import book_pages
 from assoc_hull.plot.booklet.parts import PARTS, BookPart, BookRequest, Rounded, parts_of
-from assoc_hull.shipped.bulk_carrier_207k import bulk_carrier_207k_adopted
 from assoc_hull.plot.booklet.write import write_booklet
+from assoc_hull.shipped.bulk_carrier_207k import bulk_carrier_207k_adopted
 from tests.trawler import trawler
 
 
