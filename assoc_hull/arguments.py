@@ -135,6 +135,27 @@ def _array(values: object) -> Floats:
         return np.full(1, np.nan)
 
 
+def _refuse_texts(given: object, values: object, name: str, where: str) -> None:
+    """Refuse texts in the place of numbers: "3,5" and "3.5 m" would have to be guessed.
+
+    Raises
+    ------
+    BadInputError
+        One of the values is text.
+    """
+    each = values if isinstance(values, list | tuple) else [values]
+    if not any(_is_text(value) for value in each):
+        return
+    what = "is the text" if isinstance(given, str | bytes) else "holds text:"
+    raise BadInputError(f"{name} {what} {shown(given)}", where, "give numbers, without quotes")
+
+
+def _is_text(value: object) -> bool:
+    """Tell whether a value is text, or an array of texts."""
+    kind = getattr(getattr(value, "dtype", None), "kind", "")
+    return isinstance(value, str | bytes) or kind in ("U", "S")
+
+
 def number(value: object, name: str, where: str = _CALL, *, unit: str = "m") -> float:
     """Take a finite number of at most 1e6 m, or of another unit, or say which argument is none.
 
@@ -146,11 +167,12 @@ def number(value: object, name: str, where: str = _CALL, *, unit: str = "m") -> 
     Examples
     --------
     >>> from assoc_hull.arguments import number
-    >>> number("3.5", "y")
-    3.5
+    >>> number(3, "y")
+    3.0
     """
     if type(value) is float and abs(value) <= _LARGEST:
         return value
+    _refuse_texts(value, [value], name, where)
     try:
         found = float(value) if np.ndim(value) == 0 else float("nan")  # type: ignore[arg-type]
     except _FAILS:
@@ -235,6 +257,7 @@ def numbers(values: object, name: str, where: str = _CALL, *, most: float = _LAR
     BadInputError
         Anything else.
     """
+    _refuse_texts(values, values, name, where)
     found = _array(values)
     if found.ndim > 1 or not (np.isfinite(found) & (np.abs(found) <= most)).all():
         limit = f" up to {most:g}" if np.isfinite(most) else ""
@@ -252,6 +275,7 @@ def places(values: object, name: str, where: str = _CALL) -> Floats:
     BadInputError
         Another shape, no place at all, or a number that is not finite or too large.
     """
+    _refuse_texts(values, values, name, where)
     found = np.atleast_2d(_array(values)) + 0.0
     if found.ndim != 2 or found.shape[1:] != (3,) or not len(found):
         raise BadInputError(f"{name} is no list of places", where, "give (x, y, z) each, m")
@@ -288,6 +312,7 @@ def pair(values: object, name: str, where: str = _CALL, *, positive: bool) -> tu
     (20.0, 8.0)
     """
     given = f"{name} is {shown(values)}"
+    _refuse_texts(values, values, name, where)
     found = _array(values)
     if found.shape != (2,) or not (np.abs(found) <= _LARGEST).all():
         raise BadInputError(given, where, "give two finite numbers, m")
@@ -438,17 +463,17 @@ def checked(check: Callable[[object, str, str], object], where: str) -> Callable
 
 
 def plain(value: float) -> float:
-    """Give a number that comes as text, or as a numpy scalar, as a float; all else as it is.
+    """Give a number that comes as an int or a numpy scalar as a float; all else, texts too, as is.
 
     A converter of attrs fields, whose check comes after: what `number` takes is kept as one.
 
     Examples
     --------
     >>> from assoc_hull.arguments import plain
-    >>> plain("3.5")
-    3.5
+    >>> plain(3), plain("3.5")
+    (3.0, '3.5')
     """
-    if isinstance(value, _TRUTH):
+    if isinstance(value, _TRUTH) or _is_text(value):
         return value
     try:
         return value if np.ndim(value) else float(value)

@@ -350,7 +350,9 @@ def _export(arguments: argparse.Namespace) -> int:
     check_other_target(arguments.out, arguments.hull)
     hull = open_hull(arguments.hull)
     try:
-        with progress(f"writing {arguments.out}"):
+        # Of a surface nearly all of the time goes into the fit.
+        doing = "fitting the surface for" if form in _SURFACES else "writing"
+        with progress(f"{doing} {arguments.out}"):
             report = hull.export(
                 arguments.out, form, arguments.unit, scale=arguments.scale, half=arguments.half,
                 points=arguments.points, accept=arguments.accept, leave_out=arguments.leave_out,

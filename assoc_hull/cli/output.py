@@ -96,20 +96,22 @@ def why_document(cause: Why, told: set[str] | None = None) -> dict[str, Any]:
 
 @contextlib.contextmanager
 def progress(what: str) -> Iterator[None]:
-    """Say on standard error what is being done, if it takes longer than a person waits.
+    """Say on standard error what is being done and since when, if a person would wait for it.
 
     Nothing may be printed meanwhile.
     """
 
     def show() -> contextlib.AbstractContextManager[Any]:
         from rich.console import Console
-        from rich.live import Live
-        from rich.spinner import Spinner
+        from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-        return Live(
-            Spinner("dots", f"{what} ..."), console=Console(stderr=True), transient=True,
+        clock = Progress(
+            SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn(),
+            console=Console(stderr=True), transient=True,
             redirect_stdout=False, redirect_stderr=False,
         )  # fmt: skip
+        clock.add_task(f"{what} ...")
+        return clock
 
     with _patiently(show):
         yield

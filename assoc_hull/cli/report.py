@@ -17,7 +17,7 @@ from assoc_hull.cli.arguments import (
     density_of,
     number_range,
 )
-from assoc_hull.cli.output import emit, progress
+from assoc_hull.cli.output import emit, progress_bar
 from assoc_hull.cli.plates import add_seams, seams_of
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.cli.stability import add_flooding, opening
@@ -26,6 +26,7 @@ from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
+    from assoc_hull.io.reports import Tell
     from assoc_hull.plot.booklet.parts import PartName
 
 __all__ = ["add_report"]
@@ -75,26 +76,34 @@ def _report(arguments: argparse.Namespace) -> int:
     if seams is None and "plates" in (parts or ()):
         remedy = "give --butts, --seams-z or --seams-girth"
         raise BadInputError("plates are asked, and nothing cuts the hull", "in --parts", remedy)
+    from assoc_hull.plot.booklet.write import write_booklet  # it needs matplotlib's extra
+
     draughts = None if arguments.table is None else number_range(arguments.table, "--table")
     hull = open_hull(arguments.hull)
-    with progress(f"writing {arguments.out}"):
-        written = hull.report(
-            arguments.out, parts, draught=arguments.draught, draughts=draughts, kg=arguments.kg,
+    with progress_bar(f"report {arguments.out}", hidden=False) as tell:
+        written = write_booklet(
+            hull, arguments.out, parts,
+            draught=arguments.draught, draughts=draughts, kg=arguments.kg,
             flooding=map(opening, arguments.flooding), rho=density_of(arguments),
             shell_factor=arguments.shell_factor, appendages=appendages_of(arguments),
             on_error=arguments.on_error, title=arguments.title, date=arguments.date,
-            **_shell(hull, parts or [], seams, one_fit=arguments.one_fit),
+            adoption=hull.adoption, tell=tell,
+            **_shell(hull, parts or [], seams, one_fit=arguments.one_fit, tell=tell),
         )  # fmt: skip
     words = f"written: {arguments.out} ({', '.join(written)})"
     emit(arguments, {"parts": list(written), "saved": [str(arguments.out)]}, words)
     return 0
 
 
-def _shell(hull: Hull, parts: Collection[str], seams: Any, *, one_fit: bool) -> dict[str, Any]:
+def _shell(
+    hull: Hull, parts: Collection[str], seams: Any, *, one_fit: bool, tell: Tell
+) -> dict[str, Any]:
     """Fit the surface and cut plates where these parts are named, or seams are given."""
     found: dict[str, Any] = {}
     if "surface" in parts:
+        tell("fitting the surface", 0, 0)
         found["surface"] = hull.surface()
     if seams is not None:
+        tell("cutting plates", 0, 0)
         found["plates"] = hull.plates(seams, others=() if one_fit else None)
     return found

@@ -28,6 +28,7 @@ from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.derived import Marked
 from assoc_hull.graph.journal import Journal
+from assoc_hull.model.address import AddressBook
 from assoc_hull.model.dirty_nodes import DirtyNodes
 from assoc_hull.model.index import Index
 from assoc_hull.model.make_objects import Maker
@@ -233,10 +234,10 @@ class Transaction:
         written = set(self.pending.values)
         for row in rows.tolist():
             if row in written:
-                key = self.state.rows.key[row]
+                name = AddressBook(self.state).address(row)
                 raise BadInputError(
                     "a point is written twice in one transaction",
-                    f"{key}, in {what if isinstance(what, str) else what()}",
+                    f"{name}, in {what if isinstance(what, str) else what()}",
                     "leave one of the two out, or use two transactions",
                 )
             written.add(row)

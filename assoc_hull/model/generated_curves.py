@@ -15,6 +15,7 @@ import numpy as np
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.graph.derived import Objects
+from assoc_hull.model.address import AddressBook
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.generate_points import generated_points
@@ -144,10 +145,11 @@ def points_given(
     except (LookupError, ValueError) as error:
         if isinstance(error, AssocHullError):
             raise
-        keys = ", ".join(each.key for each in chosen[:3])
+        book = AddressBook(state)
+        names = ", ".join(book.curve_name(each.curve) for each in chosen[:3])
         what = f"pieces or marks that there are not ({type(error).__name__}: {error})"
         raise BadInputError(
-            what, f"among {keys}", "take the hull from where it was kept"
+            what, f"among {names}", "take the hull from where it was kept"
         ) from error
     rows = np.array([row for each in chosen for row in each.rows], np.int64)
     # -0.0 becomes 0.0: places are compared and fingerprinted by their bits

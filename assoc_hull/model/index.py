@@ -13,6 +13,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.levels import levels
+from assoc_hull.model.address import AddressBook
 from assoc_hull.model.forms.generate_points import definitions_read
 from assoc_hull.model.generated_curves import attached_curves
 from assoc_hull.model.tables import HullState
@@ -116,9 +117,7 @@ def driven_levels(state: HullState) -> IntArray:
     driver = np.where(rows.alive.data, rows.driver.data, -1)
     reader = np.where(rows.reader[:, 0] >= 0, rows.reader[:, 0], rows.reader[:, 1])
     link = np.flatnonzero((driver >= 0) & (reader >= 0))
-    return levels(
-        state.curves.count, driver[link], reader[link], lambda c: str(state.curves.key[c])
-    )
+    return levels(state.curves.count, driver[link], reader[link], AddressBook(state).curve_name)
 
 
 def _by_value(values: IntArray, items: IntArray) -> dict[int, IntArray]:

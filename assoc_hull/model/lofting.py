@@ -14,6 +14,7 @@ from assoc_hull.geometry.curves import (
     SplineBatch,
 )
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.address import AddressBook
 from assoc_hull.model.tables import HullState
 
 __all__ = ["curve_data", "loft_curves"]
@@ -70,7 +71,7 @@ class _Names(Sequence[str]):
     def __getitem__(self, place: int | slice) -> str | Sequence[str]:
         if isinstance(place, slice):
             return _Names(self.state, self.curves[place])
-        return self.state.curves.key[int(self.curves[place])]
+        return AddressBook(self.state).curve_name(int(self.curves[place]))
 
 
 def loft_curves(state: HullState, curves: IntArray) -> SplineBatch:

@@ -16,6 +16,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.analysis.derivatives.parameters import DRAUGHT
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
+from assoc_hull.arguments import pair
 from assoc_hull.creation.classical.middle_body import MiddleBody, Midship
 from assoc_hull.creation.classical.prelikon import Prelikon, require_types
 from assoc_hull.creation.classical.prelikon_lines import Station
@@ -1057,3 +1058,22 @@ def test_every_public_name_is_tried() -> None:
     takes_nothing = {"bulk_carrier_207k", "bulk_carrier_180m", "container_ship_225m", "plain_ship"}
     takes_nothing |= {"seaking_ship", "sfolds_ship", "prelikon_ship", "typical_plates"}
     assert made == {"wigley", "series60"} | takes_nothing
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        lambda hull: hull.hydrostatics(draught="5"),
+        lambda hull: hull.hydrostatic_table(["4", "5"]),
+        lambda hull: hull.stability(kg=np.str_("4")),
+        lambda hull: hull.resistance([10.0], c_stern="10"),
+        lambda hull: hull.edit("a").move("ST 5 x WL 2.5", y="4"),
+        lambda _: pair(("10", 3.0), "radius", positive=True),
+        lambda _: ah.read("offsets.csv", length="45"),
+    ],
+    ids=["one", "some", "of numpy", "a field", "a coordinate", "a pair", "an import"],
+)
+def test_a_text_is_no_number_anywhere(hull: ah.Hull, given: Callable[[Any], Any]) -> None:
+    """One mistake has one answer: "3,5" and "5 m" would have to be guessed."""
+    with pytest.raises(ah.errors.BadInputError, match=r"text.*give numbers, without quotes"):
+        given(hull)

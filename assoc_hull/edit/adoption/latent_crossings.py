@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from assoc_hull.edit.crossings.settle_crossings import latent_intersections, make_crossing
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.graph.journal import Journal
+from assoc_hull.model.address import AddressBook
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.tables import HullState
 
@@ -21,19 +22,19 @@ __all__ = ["at_ends", "make_latent_crossings"]
 
 
 def make_latent_crossings(state: HullState) -> tuple[str, ...]:
-    """Make the crossings of lines that meet and have none; gives their keys, sorted.
+    """Make the crossings of lines that meet and have none; gives their addresses, sorted.
 
     The role is what the role rule gives there; the curves stay as they are, since a point of
     their own holds each of them there.
     """
-    maker, born = Maker(state, Journal()), list[str]()
+    maker, born = Maker(state, Journal()), list[int]()
     keys = state.curves.key.data
     latent = latent_intersections(state, state.live("curves"))
     for curve, spot in sorted(latent, key=lambda each: (str(keys[each[0]]), each[1])):
         if _meets_at_once(state, curve, spot):
             row = make_crossing(maker, curve, spot, set(), watch=True)
-            born += [] if row is None else [str(state.rows.key[row])]
-    return tuple(sorted(born))
+            born += [] if row is None else [row]
+    return tuple(sorted(map(AddressBook(state).address, born)))
 
 
 def _meets_at_once(state: HullState, curve: int, spot: int) -> bool:

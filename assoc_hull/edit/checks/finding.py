@@ -17,7 +17,7 @@ class Finding:
     Attributes
     ----------
     kind : str
-        ``failed``, ``blocked``, ``not finite``, ``fold``, ``close``, ``off curve``,
+        ``failed``, ``blocked``, ``not finite``, ``fold``, ``loop``, ``close``, ``off curve``,
         ``off plane``, ``sense``, ``gap``, ``links``, ``orphan``, ``twin``, ``association``,
         ``ruling``, ``ring``, ``tables``, ``feature``, ``detached``, ``tunnel``, or the
         note ``role``.

@@ -15,8 +15,10 @@ import numpy as np
 
 from assoc_hull.edit.checks.finding import Finding, row_finding
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.polylines.operations import crossing_segments
 from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.geometry.splines.distance import closest_points_each
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import CurveIntersections, HullState
@@ -55,6 +57,7 @@ def find_shape(state: HullState, book: AddressBook) -> Iterator[Finding]:
         yield from _folds(book, curve, spline)
         lofted.append(curve)
     yield from _off_curves(state, book, lofted)
+    yield from _loops(state, book, lofted)
 
 
 def _unbounded_points(state: HullState, book: AddressBook) -> Iterator[Finding]:
@@ -109,6 +112,52 @@ def _off_curves(state: HullState, book: AddressBook, curves: list[int]) -> Itera
     for i in np.flatnonzero(away > state.tolerances.consistent).tolist():
         text = f"lies {away[i]:.3g} m off {book.curve_name(int(curve[i]))}: undo the edit"
         yield row_finding(state, book, int(rows[i]), "off curve", text, float(away[i]))
+
+
+_CHORDS = 8
+"""Chords that stand for a segment where a curve is looked at for crossings."""
+
+
+def _loops(state: HullState, book: AddressBook, curves: list[int]) -> Iterator[Finding]:
+    """Plane curves that cross themselves: the widest loop of each, with the place it closes at.
+
+    Ends that touch, as of a closed curve, are no crossing, nor are loops less than a gap wide.
+    """
+    known = [curve for curve in curves if state.line_of(curve) >= 0]
+    plane = [curve for curve in known if state.lines.planar[state.line_of(curve)]]
+    if not plane:
+        return
+    begin, xyz = sample(SplineBatch.join([state.spline(each) for each in plane]), _CHORDS)
+    owner = np.repeat(np.arange(len(plane)), np.diff(begin))
+    lines = np.array([state.line_of(curve) for curve in plane])
+    flat = _in_planes(xyz, state.lines.normal[lines][owner])
+    # Curve beside curve, apart from one another: one sweep finds the crossings of all.
+    flat -= np.minimum.reduceat(flat, begin[:-1])[owner]
+    flat[:, 0] += (1.0 + float(flat.max(initial=0.0))) * owner
+    first = np.flatnonzero(owner[:-1] == owner[1:])
+    i, j, t = crossing_segments(flat[first], flat[first + 1])
+    widest: dict[int, tuple[float, FloatArray]] = {}
+    for a, b, part in zip(first[np.minimum(i, j)], first[np.maximum(i, j)],
+                          np.where(i < j, t, -t), strict=True):  # fmt: skip
+        k = int(a if part >= 0.0 else b)
+        place = xyz[k] + abs(part) * (xyz[k + 1] - xyz[k])
+        size = float(np.linalg.norm(xyz[a + 1 : b + 1] - place, axis=1).max())
+        if size > max(state.tolerances.gap_floor, widest.get(int(owner[a]), (0.0,))[0]):
+            widest[int(owner[a])] = size, place
+    for number, (size, place) in sorted(widest.items()):
+        x, y, z = place.tolist()
+        text = f"crosses itself in a loop of {size:.3g} m: move the points of the loop, or undo"
+        yield Finding("loop", book.curve_name(plane[number]), (x, y, z), size, text)
+
+
+def _in_planes(xyz: FloatArray, normal: FloatArray) -> FloatArray:
+    """Give places (n, 3) in the planes with their normals, (n, 2), m."""
+    # The axis that the plane is most nearly along is its first direction.
+    axis = np.eye(3)[np.abs(normal).argmin(axis=1)]
+    one = np.cross(normal, axis)
+    one /= np.linalg.norm(one, axis=1)[:, None]
+    other = np.cross(normal, one)
+    return np.stack([(xyz * one).sum(axis=1), (xyz * other).sum(axis=1)], axis=1)
 
 
 def _points_of(state: HullState, number: IntArray) -> tuple[IntArray, IntArray]:

@@ -10,6 +10,7 @@ from assoc_hull.edit.arguments import direction_in
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind
+from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import State
 from assoc_hull.model.tables import Ends
 
@@ -46,7 +47,7 @@ def set_end(
     BadInputError
         An unknown end, both conditions, or a vector that is not three finite numbers.
     """
-    where = f"in set_end of {edit.state.curves.key[curve]}"
+    where = f"in set_end of {AddressBook(edit.state).curve_name(curve)}"
     choice(end, "end", ("start", "finish"), where)
     if tangent is not None and curvature is not None:
         raise BadInputError("both a tangent and a curvature", where, "give one of the two")

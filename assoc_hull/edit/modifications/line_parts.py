@@ -293,4 +293,6 @@ def designed(state: HullState, curve: int, marks: list[Mark]) -> SplineBatch:
     xyz, goal = data.xyz.copy(), {mark.row: mark.goal for mark in marks}
     for place, row in enumerate(state.curves.rows[curve].tolist()):
         xyz[place] = goal.get(row, xyz[place])
-    return loft(attrs.evolve(data, xyz=xyz), [f"the new shape of {state.curves.key[curve]}"])
+    return loft(
+        attrs.evolve(data, xyz=xyz), [f"the new shape of {state.lines.name[state.line_of(curve)]}"]
+    )

@@ -524,7 +524,7 @@ def _designed(
             data.end_kind.copy(),
             data.end_vector.copy(),
         ),
-        [f"the new shape of {state.curves.key[curve]}"],
+        [f"the new shape of {state.lines.name[state.line_of(curve)]}"],
     )
 
 

@@ -37,6 +37,7 @@ from assoc_hull.edit.space_map import Affine, SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import crossings_between, named_lines
 from assoc_hull.model.make_objects import Maker, PointSpec
@@ -201,8 +202,8 @@ def driving_lines(state: HullState, drivers: Sequence[int]) -> np.typing.NDArray
             "name groups or lines that carry the hull, for instance ['sections', 'profile']",
         )  # fmt: skip
     if state.failed:
-        keys = ", ".join(str(state.curves.key[curve]) for curve in state.failed)
-        raise BadInputError(f"{keys} has failed", "in transform", "mend it before")
+        names = ", ".join(map(AddressBook(state).curve_name, state.failed))
+        raise BadInputError(f"{names} has failed", "in transform", "mend it before")
     found: np.typing.NDArray[np.bool_] = (driver | boundary) & state.lines.alive.data
     return found
 

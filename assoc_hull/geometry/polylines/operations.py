@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
 __all__ = [
+    "crossing_segments",
     "cumulative_lengths",
     "distinct_points",
     "drop_repeats",
@@ -186,6 +187,15 @@ def self_crossings(start: FloatArray, end: FloatArray) -> FloatArray:
     >>> self_crossings(bow_tie[:-1], bow_tie[1:]).tolist()
     [[1.0, 1.0]]
     """
+    i, _, t = crossing_segments(start, end)
+    return np.asarray(start[i] + t[:, None] * (end[i] - start[i]))
+
+
+def crossing_segments(start: FloatArray, end: FloatArray) -> tuple[IntArray, IntArray, FloatArray]:
+    """Give the pairs of segments that cross, (k,) each, and where on the first, 0 to 1.
+
+    Arguments as for `self_crossings`.
+    """
     i, j = _overlapping(start, end)
     along, beside = end[i] - start[i], end[j] - start[j]
     offset = start[j] - start[i]
@@ -195,7 +205,7 @@ def self_crossings(start: FloatArray, end: FloatArray) -> FloatArray:
         u = (offset[:, 0] * along[:, 1] - offset[:, 1] * along[:, 0]) / cross
     margin = 1e-6
     inside = (t > margin) & (t < 1.0 - margin) & (u > margin) & (u < 1.0 - margin)
-    return np.asarray(start[i[inside]] + t[inside, None] * along[inside])
+    return i[inside], j[inside], np.asarray(t[inside])
 
 
 def _overlapping(start: FloatArray, end: FloatArray) -> tuple[IntArray, IntArray]:

@@ -192,7 +192,8 @@ def _settings(state: HullState) -> Iterator[str]:
     for pair, birth in zip(state.curves.line[both].tolist(), table.birth[rows].tolist(),
                            strict=True):  # fmt: skip
         if not 0 < birth <= births.get((key[pair[0]], key[pair[1]]), 0):
-            yield f"{key[pair[0]]!r} and {key[pair[1]]!r} bore fewer crossings than they have"
+            a, b = (str(state.lines.name[line]) for line in pair)
+            yield f"{a!r} and {b!r} bore fewer crossings than they have"
 
 
 def require_whole_history(

@@ -90,6 +90,7 @@ from assoc_hull.io.open_databases import (
     log_file,
     spared_log,
 )
+from assoc_hull.model.address import AddressBook
 from assoc_hull.model.change import TableChange, change_of, with_signed_zeros
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.definition.hash_tree import HashTree, is_root
@@ -762,10 +763,10 @@ class HullFile:
 
     def require_print(self, head: int) -> None:
         """Refuse tables whose fingerprint is not the one in the file for the state after a step."""
-        splines, keys = self.state.curves.spline, self.state.curves.key
+        splines = self.state.curves.spline
         for curve in self.state.live("curves").tolist():
             if splines[curve] is None:  # a curve without a shape has no fingerprint
-                what = f"the curve {keys[curve]!r} has no shape"
+                what = f"the curve {AddressBook(self.state).curve_name(curve)!r} has no shape"
                 raise DamagedFileError(what, f"at {self.path}", AGAIN)
         present, said = self._one("SELECT head, fingerprint FROM hull")
         said = str(said if head == present else self.recorded(head))

@@ -112,7 +112,7 @@ def _import(path: Path, wanted: ImportOptions, tell: Tell) -> tuple[HullState, I
         state, path, report.notes, report.adoption, report.slices, report.frame, table=report.table
     )
     require_sound(verdict, path.name, accept=wanted.accept, strict=wanted.strict)
-    mine = (*report.adoption.notes, *(f"{key}: made, since both lines end there" for key in made))
+    mine = (*report.adoption.notes, *(f"{name}: made, since both lines end there" for name in made))
     lcb = (*_place_of_lcb(state, report.frame), *open_net_note(state))
     if not restored:
         noise = _noise(state, report.table)

@@ -290,7 +290,7 @@ def _checked(state: HullState, *, sized: bool) -> Iterator[ImportFinding]:
     for each in check(state):
         place = "" if each.place is None else f" at {_at(each.place)}"
         what = each.message
-        if each.kind == "fold":  # what is imported has had no edit that could be undone
+        if each.kind in ("fold", "loop"):  # what is imported has had no edit that could be undone
             what = f"{what.partition(': ')[0]}: {_unfold(state, sized=sized)}"
         yield ImportFinding(each.kind, f"{each.object}{place}", what, each.amount)
 

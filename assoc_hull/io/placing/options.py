@@ -190,4 +190,4 @@ def _place(value: object, name: str, factor: float) -> float:
             f"give a number in units of the file, or one with a unit ({', '.join(METRES)}), as "
             "'12.5 m'",
         )  # fmt: skip
-    return number(found[1], name, _WHERE) * (METRES[unit] if unit else factor)
+    return number(float(found[1]), name, _WHERE) * (METRES[unit] if unit else factor)

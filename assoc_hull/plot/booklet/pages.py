@@ -13,6 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.hydrostatics.record import FIELDS, HydrostaticTable
+from assoc_hull.io.reports import Tell, no_progress
 from assoc_hull.model.tables import HasState
 from assoc_hull.plot.booklet.parts import (
     BookColumn,
@@ -242,8 +243,9 @@ class _Entry:
 
 
 def book_pages(
-    hull: HasState, parts: Sequence[BookPart], design: HydrostaticTable, title: str
-) -> tuple[list[Figure], list[Bookmark]]:
+    hull: HasState, parts: Sequence[BookPart], design: HydrostaticTable, title: str,
+    tell: Tell = no_progress,
+) -> tuple[list[Figure], list[Bookmark]]:  # fmt: skip
     """Lay out a booklet: title, contents, parts; all pages numbered. Gives its bookmarks, too.
 
     Parameters
@@ -256,10 +258,13 @@ def book_pages(
         At the design draught, for the title page.
     title : str
         Of the booklet.
+    tell : callable
+        Hears which part is drawn.
     """
     ship, entries = design.header.ship, list[_Entry]()
     pages: list[Sheet | Figure] = []
-    for part in parts:
+    for k, part in enumerate(parts):
+        tell(f"drawing {part.name}", len(parts) + k, 2 * len(parts))
         entries.append(_Entry(part.title, 0, len(pages)))
         pages += _part_pages(ship, part, entries, len(pages))
     front: list[Sheet] = [_title_page(hull, design, title)]

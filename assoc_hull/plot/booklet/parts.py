@@ -29,6 +29,7 @@ from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.edit.checks.hull_findings import check
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.patches.volume_below import integrate_below
+from assoc_hull.io.reports import Tell, no_progress
 from assoc_hull.model.tables import HasState
 from assoc_hull.plot.diagrams.hydrostatics import (
     bonjean_curves,
@@ -168,7 +169,9 @@ class BookRequest:
                 "on_error": self.on_error}  # fmt: skip
 
 
-def parts_of(hull: HasState, asked: BookRequest) -> tuple[tuple[BookPart, ...], HydrostaticTable]:
+def parts_of(
+    hull: HasState, asked: BookRequest, tell: Tell = no_progress
+) -> tuple[tuple[BookPart, ...], HydrostaticTable]:
     """Compute the parts asked for; and the hydrostatics at the design draught, for the title."""
     design = hydrostatic_table(
         hull, [asked.draught], (0.0,), kg=asked.kg, date=asked.date, **asked.terms
@@ -190,7 +193,11 @@ def parts_of(hull: HasState, asked: BookRequest) -> tuple[tuple[BookPart, ...], 
         "plates": lambda: _plates(asked),
         "accuracy": lambda: _accuracy(hull, asked, design, table()),
     }
-    return tuple(makers[name]() for name in asked.names), design
+    made, count = list[BookPart](), len(asked.names)
+    for k, name in enumerate(asked.names):
+        tell(f"computing {name}", k, 2 * count)  # drawing is the other half
+        made.append(makers[name]())
+    return tuple(made), design
 
 
 _STEPS = (0.05, 0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 2.5, 5.0)

@@ -17,6 +17,7 @@ from assoc_hull.analysis.stability.flooding import FloodingPoint
 from assoc_hull.arguments import all_of, choice, file_path, instance, number, positive, text
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.errors import BadInputError
+from assoc_hull.io.reports import Tell, no_progress
 from assoc_hull.io.tables.spreadsheets import head_on, openpyxl_module, workbook_bytes
 from assoc_hull.io.write_file import write_whole
 from assoc_hull.model.tables import HasState, state_of
@@ -61,8 +62,12 @@ def write_booklet(
     adoption: AdoptionReport | None = None,
     title: str = _TITLE,
     date: str | None = None,
+    tell: Tell = no_progress,
 ) -> tuple[str, ...]:
-    """Write a booklet; give the names of its parts. Arguments and errors as of `Hull.report`."""
+    """Write a booklet; give the names of its parts. Arguments and errors as of `Hull.report`.
+
+    `tell` hears which part is computed or drawn.
+    """
     state = state_of(hull, _WHERE)
     form, name = _form(path), text(title, "title", _WHERE)
     if surface is not None:
@@ -81,8 +86,8 @@ def write_booklet(
         adoption, None if date is None else text(date, "date", _WHERE),
     )  # fmt: skip
     _require(form)
-    found, design = parts_of(hull, asked)
-    _write(hull, path, form, found, design, name)
+    found, design = parts_of(hull, asked, tell)
+    _write(hull, path, form, found, design, name, tell)
     return asked.names
 
 
@@ -133,10 +138,11 @@ def _names(parts: Iterable[str] | str | None, given: dict[str, bool]) -> tuple[s
 
 def _write(
     hull: HasState, path: Path_, form: str, parts: Sequence[BookPart], design: HydrostaticTable,
-    title: str,
+    title: str, tell: Tell = no_progress,
 ) -> None:  # fmt: skip
     if form == ".pdf":
-        pages, marks = book_pages(hull, parts, design, title)
+        pages, marks = book_pages(hull, parts, design, title, tell)
+        tell("writing pages", 0, 0)
         data = pdf_of_figures(pages, f"{title}: {design.header.ship}", design.header.date)
         data = with_outline(data, marks)
     else:

@@ -94,6 +94,18 @@ def fold(state: HullState) -> None:
     put_object(state, "curves", "spline", curve, attrs.evolve(spline, leave=leave))
 
 
+def loop(state: HullState) -> None:
+    """A segment whose tangents are five times its chord: it crosses itself, and folds nowhere."""
+    curve = curve_of(state)
+    spline = state.spline(curve)
+    chord = (spline.xyz[6] - spline.xyz[5]) / (spline.knot[6] - spline.knot[5])
+    out = np.array([-chord[1], chord[0], 0.0])
+    leave, arrive = spline.leave.copy(), spline.arrive.copy()
+    leave[5], arrive[6] = 5.0 * (chord + out), 5.0 * (chord - out)
+    shape = attrs.evolve(spline, leave=leave, arrive=arrive)
+    put_object(state, "curves", "spline", curve, shape)
+
+
 def fold_through(state: HullState) -> None:
     """A curve through a point that lies far beyond the next ones: its tangent turns back."""
     curve = curve_of(state)
@@ -381,6 +393,7 @@ DEFECTS: dict[str, Defect] = {
     "a spline that is not finite": Defect(spoil_spline, "not finite", "WL 2.5"),
     "a fold": Defect(fold, "fold", "WL 2.5"),
     "a fold through its points": Defect(fold_through, "fold", "WL 2.5"),
+    "a loop": Defect(loop, "loop", "WL 2.5"),
     "a gap": Defect(widen, "gap", POINT),
     "a point that is not finite": Defect(spoil_number, "not finite", POINT),
     "a point out of its plane": Defect(lift, "off plane", POINT),
@@ -415,7 +428,7 @@ DEFECTS: dict[str, Defect] = {
     "a broken association: declared twice": Defect(
         associate_twice, "association", "waterlines - sections"
     ),
-    "a ring": Defect(close_ring, "ring", "sections:70.000000/1"),
+    "a ring": Defect(close_ring, "ring", "ST 7"),
     "a point that leads nowhere": Defect(lead_astray, "tables", f"x {KEY}"),
     "a curve through nothing": Defect(list_astray, "tables", f"{KEY}/1"),
     "a meeting that is nothing": Defect(meet_astray, "tables", f"{KEY}/1"),

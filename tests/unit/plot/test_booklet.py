@@ -14,6 +14,7 @@ from assoc_hull.cli import main
 from assoc_hull.errors import BadInputError
 from assoc_hull.plot.booklet.pages import book_pages
 from assoc_hull.plot.booklet.parts import PARTS, BookPart, BookRequest, Rounded, parts_of
+from assoc_hull.plot.booklet.write import write_booklet
 from assoc_hull.shipped.bulk_carrier_207k import bulk_carrier_207k_adopted
 from tests.trawler import trawler
 
@@ -208,6 +209,15 @@ def test_one_document_has_one_moment_to_trim(hull: ah.Hull) -> None:
         value = row[2]
         assert isinstance(value, Rounded)
         assert value.value == pytest.approx(told, rel=1e-12)
+
+
+def test_a_long_report_tells_which_part_it_is_at(hull: ah.Hull, tmp_path: Path) -> None:
+    """Each part is computed, then drawn, in order; then the pages are written."""
+    heard: list[tuple[str, int, int]] = []
+    parts = ["bonjean", "areas"]
+    write_booklet(hull, tmp_path / "a.pdf", parts, tell=lambda *step: heard.append(step))
+    doing = [f"{act} {part}" for act in ("computing", "drawing") for part in parts]
+    assert heard == [*((words, k, 4) for k, words in enumerate(doing)), ("writing pages", 0, 0)]
 
 
 def test_places_along_the_ship_say_from_where_they_count(hull: ah.Hull) -> None:

@@ -9,6 +9,7 @@ from assoc_hull.edit.checks.finding import Finding
 from assoc_hull.edit.checks.hull_findings import check
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.transaction import Transaction
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker, PointSpec
@@ -56,6 +57,21 @@ def test_a_fold_is_named_with_its_place(state: HullState) -> None:
     assert folds[0].place == pytest.approx(place)
     assert folds[0].amount is not None
     assert folds[0].amount < 0.0
+
+
+def test_a_loop_is_named_with_its_place_and_width(state: HullState) -> None:
+    """The curve crosses itself where the finding says; no other curve of the hull does."""
+    planted("a loop", state)
+    (found,) = [each for each in check(state) if each.kind == "loop"]
+    assert found.object == "WL 2.5"
+    assert found.place is not None
+    assert found.amount is not None
+    curve = curve_of(state)
+    places = sample(state.spline(curve), 400)[1]
+    away = np.linalg.norm(places - found.place, axis=1)
+    near = np.flatnonzero(away < 0.05 * found.amount)
+    assert (np.diff(near) > 1).sum() == 1  # it passes there twice
+    assert away[near[0] : near[-1]].max() == pytest.approx(found.amount, rel=0.1)
 
 
 def test_damage_does_not_hide_other_findings(state: HullState) -> None:

@@ -321,7 +321,7 @@ def test_lines_lengthened_to_one_place_of_the_stem_leave_no_gap(short: float, ma
     links = [("sections", "waterlines"), ("boundary", "sections"), ("boundary", "waterlines")]
     ship = Particulars("a", 100.0, 10.0, 6.0, 9.0)
     state, report = adopt(lines, ship, [Association(*each) for each in links])
-    assert len(make_latent_crossings(state)) == made
+    assert make_latent_crossings(state) == ("WL 5 x ST 20",) * made
     found = Findings()
     examine_net(state, report, found)
     assert found.faults == []
