@@ -35,6 +35,7 @@ import numpy as np
 from playwright.sync_api import Browser, Error, Locator, Page, sync_playwright
 
 import assoc_hull as ah
+from assoc_hull.model.program.engine import wait_for_engine
 from tests.browser.conftest import NAMES, READY, Hand
 from tests.cases.dtc import read_dtc_with_report
 
@@ -396,6 +397,8 @@ def committer(path: Path) -> Iterator[Callable[[str, float], int]]:
 
 def served(name: str) -> tuple[Server, Path, str]:
     """Serve a hull from a file of its own; give its fingerprint as well."""
+    # Else the server takes 150 MB more whenever the compiled arithmetic is ready in its midst.
+    wait_for_engine(PATIENCE)
     path, hull = Path(tempfile.mkdtemp(), "ship.hull"), HULLS[name]()
     first = hull.fingerprint
     hull.save(path)
