@@ -1,5 +1,4 @@
-// Lists to choose from: all lines by family, the points of the chosen line, what is wrong with the hull;
-// and the ways to what is chosen, named or found.
+// Lists of lines, of points, of what is wrong with the hull; and the ways to what is chosen, named or found.
 
 import {Asker, button, link, paragraph} from "./asker.js";
 

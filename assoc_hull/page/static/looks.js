@@ -1,5 +1,4 @@
-// How the page looks: what the browser keeps of that for the next time, which is nothing of the hull;
-// colours; and the room that each view has.
+// How the page looks: what the browser keeps of that, colours, and the room of each view.
 
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {import("./store.js").Store} Store */

@@ -1,5 +1,4 @@
-// What would be made, shown as a ghost before it is: pulls that are answered fairly, lines that are led,
-// and a line re-shaped through places that are clicked, each of which can be dragged.
+// What would be made, shown as a ghost before it is; and a line re-shaped through places that are clicked.
 
 import {Asker, button} from "./asker.js";
 import {farthestDrawn} from "./paint.js";
