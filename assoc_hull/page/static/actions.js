@@ -1,4 +1,4 @@
-// All actions: words, keys, whether they can be done now; buttons, palette and sheet read them. And the keys.
+// All actions: words, keys, whether they can be done now. And the keys.
 
 import {showChosen} from "./lists.js";
 import {passes, pin, remove} from "./point_acts.js";
@@ -165,7 +165,7 @@ export class Keys {
       if (/\b[a-z]$/.test(key) && !(event.target instanceof HTMLSelectElement) && actionOf(page, key)) page.say("Letters act in the drawing: Esc leads there.");
       return;
     }
-    // A place that was clicked is taken back first; an edit that lies before it stays.
+    // A clicked place is taken back first.
     if (key === "Ctrl+z" && store.shaping?.places.length) {
       event.preventDefault();
       return page.shaper.back();

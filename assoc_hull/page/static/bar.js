@@ -1,4 +1,4 @@
-// The bar above: the ship, tools, switches; the sheet of keys; and the palette, which finds actions, points and lines.
+// The bar above: the ship, tools, switches, keys; the palette finds actions, points and lines.
 
 import {ACTIONS, keyWords} from "./actions.js";
 

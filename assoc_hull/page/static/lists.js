@@ -1,4 +1,4 @@
-// Lists of lines, of points, of what is wrong with the hull; and the ways to what is chosen, named or found.
+// Lists of lines, points and faults; the ways to what is chosen, named or found.
 
 import {Asker, button, link, paragraph} from "./asker.js";
 

@@ -197,7 +197,7 @@ export class Page {
     this.store.changed("overlay", "panel");
   }
 
-  // ---- drawing: one frame at most is waited for, and none when nothing has changed
+  // ---- drawing: at most one frame waits
 
   /** @param {import("./store.js").Stale} what */
   #stale(what) {

@@ -1,4 +1,4 @@
-// What is done to the chosen point beside dragging it: kind, role, pin, deletion, pulls by typed millimetres.
+// What is done to the chosen point beside dragging it: kind, role, pin, deletion, typed pulls.
 
 import {button, paragraph} from "./asker.js";
 import {ADOPTED, CROSSING, PLACED} from "./net.js";

@@ -39,7 +39,7 @@ export class Proposal extends Asker {
 
   /** One that is a draft is not made: it waits for more of what is asked. @param {string} name @param {object[]} ops @param {boolean} [draft] */
   show(name, ops, draft = false) {
-    // Asked once more, as by Enter in the same field: it was seen, and is wanted.
+    // Asked once more: it was seen, and is wanted.
     if (this.ready && !draft && this.what && !this.what.draft && this.what.state === this.page.store.state && JSON.stringify(this.what.ops) === JSON.stringify(ops)) return void this.apply();
     this.askGhost({t: "preview", ops}, `${name}: looking what follows …${/"fair":true/.test(JSON.stringify(ops)) ? " A fair answer takes some seconds; Esc gives up." : ""}`);
     this.what = {name, ops, state: this.page.store.state, draft};

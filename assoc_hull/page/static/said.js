@@ -1,4 +1,4 @@
-// What is said: a refusal beside its point; and in live regions, at most once a second while something is dragged.
+// What is said: a refusal beside its point; in live regions, once a second at most.
 
 import {signed} from "./units.js";
 
