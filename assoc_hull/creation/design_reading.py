@@ -19,6 +19,7 @@ import numpy as np
 from assoc_hull.analysis.fairness.fair_solution import linear_algebra
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
+from assoc_hull.arguments import text
 from assoc_hull.creation.design import Design
 from assoc_hull.creation.form_definitions import course
 from assoc_hull.creation.read_courses import (
@@ -30,7 +31,7 @@ from assoc_hull.creation.read_courses import (
 )
 from assoc_hull.creation.read_sections import DrawnSection, SectionFit, evenly, fit_sections
 from assoc_hull.display import ShownAsText
-from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.errors import AssocHullError, BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.sections import cross_section, sections_below
@@ -87,12 +88,12 @@ class DesignReading(ShownAsText):
     notes: tuple[str, ...] = ()
 
     def residual(self, name: str) -> CurveResidual:
-        """Give the residual of a curve by its name."""
+        """Give the residual of a curve by its name; UnknownNameError if there is none."""
         for each in self.residuals:
             if each.name == name:
                 return each
-        known = ", ".join(each.name for each in self.residuals)
-        raise BadInputError(f"there is no curve {name!r}", "in a design", f"use one of {known}")
+        known = tuple(each.name for each in self.residuals)
+        raise UnknownNameError("curve", text(name, "name", "in a design"), known)
 
     def data(self) -> dict[str, Any]:
         """Give residuals and notes as plain values."""
