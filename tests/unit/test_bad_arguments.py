@@ -111,6 +111,7 @@ HULL: dict[str, Given] = {
     "apply": {"name": "a", "edits": []},
     "undo": {"n": 0, "author": None},
     "snapshot": {},
+    "design": {},
     "redo": {"n": 0},
     "find": {"address": POINT},
     "why": {"thing": POINT, "step": None, "least": 1e-4},
