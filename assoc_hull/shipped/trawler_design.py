@@ -167,8 +167,8 @@ def _shape(ship: Particulars, made: _Halves) -> tuple[CubicSpline, CubicSpline]:
     within = CubicSpline(_GRID, ratio)
     stern, bow = (
         BPoly.from_derivatives(ends, values) for ends, values in (
-            ([-1.0, _HEEL], [[0.5, 0.0], [within(_HEEL, n) for n in range(3)]]),
-            ([_FOREFOOT, 1.0], [[within(_FOREFOOT, n) for n in range(3)], [0.5, 0.0]]),
+            ([-1.0, _HEEL], [[0.5, 0.0], [float(within(_HEEL, n)) for n in range(3)]]),
+            ([_FOREFOOT, 1.0], [[float(within(_FOREFOOT, n)) for n in range(3)], [0.5, 0.0]]),
         )
     )  # fmt: skip
     keel = (_GRID >= _HEEL) & (_GRID <= _FOREFOOT)

@@ -1070,7 +1070,7 @@ def test_every_public_name_is_tried() -> None:
         lambda hull: hull.resistance([10.0], c_stern="10"),
         lambda hull: hull.edit("a").move("ST 5 x WL 2.5", y="4"),
         lambda _: pair(("10", 3.0), "radius", positive=True),
-        lambda _: ah.read("offsets.csv", length="45"),
+        lambda _: ah.read("offsets.csv", length=cast("float", "45")),
     ],
     ids=["one", "some", "of numpy", "a field", "a coordinate", "a pair", "an import"],
 )
