@@ -177,7 +177,7 @@ def _shape(ship: Particulars, made: _Halves) -> tuple[CubicSpline, CubicSpline]:
     # On the keel the depth is the draught to the last bit.
     falls = np.diff(deep) * np.sign(_GRID[1:])
     for bad, words in (
-        (full.max() > max(_MOST, made.cm + 1e-3), "flatter than a floor with a rise"),
+        (full.max() > _MOST, "flatter than a floor with a rise"),
         (full.min() < _LEAST, "sharper than a hollow wedge"),
         (falls.max() > 1e-6, "deeper than the keel"),
     ):
