@@ -180,6 +180,7 @@ def fitted_halves(definition: FormDefinition, curve: Polynomial) -> FormDefiniti
             return found
 
         first = min(_FIRST, key=lambda part: float(np.abs(miss(np.array(part))).max()))
-        best = least_squares(miss, first, bounds=(-0.7, 0.7), diff_step=np.array(1e-3), max_nfev=15)
+        steps = np.full(2, 1e-3)
+        best = least_squares(miss, first, bounds=(-0.7, 0.7), diff_step=steps, max_nfev=15)
         definition = having(best.x)
     return definition

@@ -165,19 +165,16 @@ def _shape(ship: Particulars, made: _Halves) -> tuple[CubicSpline, CubicSpline]:
     ratio = forms.value("sectional_area", x) / forms.value("design_waterline", x)
     ratio = ratio / (2.0 * ship.draught)
     within = CubicSpline(_GRID, ratio)
-    stern, bow = (
-        BPoly.from_derivatives(ends, values) for ends, values in (
-            ([-1.0, _HEEL], [[0.5, 0.0], [float(within(_HEEL, n)) for n in range(3)]]),
-            ([_FOREFOOT, 1.0], [[float(within(_FOREFOOT, n)) for n in range(3)], [0.5, 0.0]]),
-        )
-    )  # fmt: skip
+    aft, fore = ([float(within(at, n)) for n in range(3)] for at in (_HEEL, _FOREFOOT))
+    stern = BPoly.from_derivatives([-1.0, _HEEL], [[0.5, 0.0], aft])
+    bow = BPoly.from_derivatives([_FOREFOOT, 1.0], [fore, [0.5, 0.0]])
     keel = (_GRID >= _HEEL) & (_GRID <= _FOREFOOT)
     full = np.where(keel, ratio, np.where(_GRID < _HEEL, stern(_GRID), bow(_GRID)))
     deep = ratio / full
     # On the keel the depth is the draught to the last bit.
     falls = np.diff(deep) * np.sign(_GRID[1:])
     for bad, words in (
-        (full.max() > max(_MOST, made.cm + 1e-3), "flatter than a floor with a rise"),
+        (full.max() > _MOST, "flatter than a floor with a rise"),
         (full.min() < _LEAST, "sharper than a hollow wedge"),
         (falls.max() > 1e-6, "deeper than the keel"),
     ):
