@@ -388,18 +388,16 @@ class _Reader:
             if math.isfinite(water):
                 width[each.x] = water
         x = np.array([each for each in sorted(width) if aft[0] + 1e-6 < each < fore[0] - 1e-6])
-        y = np.array([width[each] for each in x.tolist()]) / (0.5 * ship.breadth)
-        level, pinned = self._water_full(forms, x / half - 1.0, y)
-        ends = (
-            (aft[0] / half - 1.0, aft[1] / (0.5 * ship.breadth)),
-            (fore[0] / half - 1.0, fore[1] / (0.5 * ship.breadth)),
-        )
+        y = np.array([width[each] for each in x.tolist()])
+        level, pinned = self._water_full(forms, x / half - 1.0, y / float(y.max()))
+        # A hull that flares all along is narrower at the draught than her breadth.
+        full = 0.5 * ship.breadth if pinned else float(y.max())
+        ends = tuple((end / half - 1.0, breadth / full) for end, breadth in (aft, fore))
         line, left = read_halves(
-            "design waterline", "design_waterline", 0.5 * ship.breadth, x / half - 1.0, y, ends,
-            level, pinned,
+            "design waterline", "design_waterline", full, x / half - 1.0, y / full,
+            (ends[0], ends[1]), level, pinned,
         )  # fmt: skip
-        self._tell("design_waterline", "m", left * 0.5 * ship.breadth,
-                   [f"x = {e:.2f} m" for e in x.tolist()])  # fmt: skip
+        self._tell("design_waterline", "m", left * full, [f"x = {e:.2f} m" for e in x.tolist()])
         x = np.array(sorted(area))
         x = x[(x > aft[0] + 1e-6) & (x < fore[0] - 1e-6)]
         y = np.array([area[each] for each in x.tolist()])
