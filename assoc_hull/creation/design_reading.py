@@ -32,7 +32,7 @@ from assoc_hull.creation.read_courses import (
 from assoc_hull.creation.read_sections import DrawnSection, SectionFit, evenly, fit_sections
 from assoc_hull.display import ShownAsText
 from assoc_hull.errors import AssocHullError, BadInputError, UnknownNameError
-from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.sections import cross_section, sections_below
 from assoc_hull.geometry.floating.slices import integrate_slice
@@ -167,8 +167,13 @@ def _own(state: HullState) -> DesignReading:
         _planes(net, "waterlines", 2), _planes(net, "buttocks", 1), _transom(net)[0],
         state.tolerances,
     )  # fmt: skip
-    note = "the hull was created from definitions: these are its own, nothing was read off"
-    return DesignReading(design, (), (note,))
+    notes = ["the hull was created from definitions: these are its own, nothing was read off"]
+    edited = sum(
+        not each.attached and bool(state.curves.alive[each.curve]) for each in state.generated
+    )
+    if edited:
+        notes.append(f"{edited} of its curves were edited by hand since, which the design has not")
+    return DesignReading(design, (), tuple(notes))
 
 
 def _planes(net: CurveNet, family: str, axis: int) -> list[float]:
@@ -182,10 +187,12 @@ def _planes(net: CurveNet, family: str, axis: int) -> list[float]:
 
 
 def _transom(net: CurveNet) -> tuple[float | None, list[int]]:
-    """Give x (m) of a flat transom, and its curves."""
+    """Give x (m) of a flat transom, abaft all sections, and its curves."""
+    sections = [x for x, each in zip(net.x, net.family, strict=True) if each == "sections"]
+    aft = min((float(x) for x in sections if math.isfinite(x)), default=-math.inf)
     found = [
         number for number in range(len(net.curve))
-        if net.end[number] and math.isfinite(net.x[number]) and net.name[number] == "transom"
+        if net.end[number] and math.isfinite(net.x[number]) and net.x[number] < aft + 1e-6
     ]  # fmt: skip
     return (float(net.x[found[0]]) if found else None), found
 
@@ -252,12 +259,7 @@ class _Reader:
             ("deck_height", deck, (0, 2), True),
         ):  # fmt: skip
             path = DrawnPath.of([self.net.batch.curve(n) for n in curves], axes)
-            nodes, off = read_path(path, fine, onward)
-            x, _ = _transom(self.net)
-            if x is not None and abs(nodes[0].x - x) < _ON_FLAT:
-                nodes[0] = attrs.evolve(nodes[0], x=x)
-            found.append(_course(use, nodes))
-            self._tell(use, "m", off, [f"x = {x:.2f} m" for x in path.at[:, 0].tolist()])
+            found.append(self._laid(use, path, fine, onward))
         self._meets(profile, deck)
         return found
 
@@ -274,7 +276,8 @@ class _Reader:
             gap = float(np.sqrt(((one - other) ** 2).sum()))
             if gap > _OPEN * self.ship.breadth:
                 what = f"the hull is open {place}: profile and deck edge end {gap:.4g} m apart"
-                raise BadInputError(what, f"in the hull {self.ship.name!r}", "let them meet there")
+                remedy = "let them meet there" + (", or in a flat transom" if end < 0.0 else "")
+                raise BadInputError(what, f"in the hull {self.ship.name!r}", remedy)
 
     def _ends(self, what: str, chosen: Callable[[int], bool]) -> list[int]:
         """Give the boundary curves of a kind, from aft forward."""
@@ -300,22 +303,27 @@ class _Reader:
                 curve = self.net.batch.curve(n)
                 across = sample(curve, 4)[1][:, axis] - value
                 if self.net.flat[n] and float(np.abs(across).max()) < _ON_FLAT:
-                    found.append(self._border(use, curve, 3 - axis))
+                    path = DrawnPath.of([curve], (0, 3 - axis))
+                    found.append(self._laid(use, path, _ROUGH * self.ship.breadth, True))
                     break
         return found
 
-    def _border(self, use: str, curve: SplineBatch, axis: int) -> FormDefinition:
-        """Lay a course along the border of a flat."""
-        path = DrawnPath.of([curve], (0, axis))
-        nodes, off = read_path(path, _ROUGH * self.ship.breadth, True)
-        made = _course(use, nodes)
+    def _laid(self, use: str, path: DrawnPath, tolerance: float, onward: bool) -> FormDefinition:
+        """Lay a course along a path; with `onward` it has one ordinate at each abscissa."""
+        nodes, off = read_path(path, tolerance, onward)
         x, y = path.at.T
+        aft, _ = _transom(self.net)
+        if not use.startswith("flat") and aft is not None and abs(nodes[0].x - aft) < _ON_FLAT:
+            nodes[0] = attrs.evolve(nodes[0], x=aft)
+        made = _course(use, nodes)
         try:
             Forms.of([made], self.ship).chain(use)
         except BadInputError:
-            # A border that runs back somewhere: through those places that lie ahead of all before.
+            # A curve that runs back somewhere: through those places that lie ahead of all before.
             keep = np.concatenate([[True], np.diff(np.maximum.accumulate(x)) > 1e-3])
-            made, off = _through(use, x[keep], y[keep], self.ship)
+            # Its last place stays, where others end on it.
+            keep[-1] = x[-1] >= x[:-1].max()
+            made, off = _through(use, x[keep], y[keep], self.ship, tolerance)
             x = x[keep]
         self._tell(use, "m", off, [f"x = {each:.2f} m" for each in x.tolist()])
         return made
@@ -380,18 +388,16 @@ class _Reader:
             if math.isfinite(water):
                 width[each.x] = water
         x = np.array([each for each in sorted(width) if aft[0] + 1e-6 < each < fore[0] - 1e-6])
-        y = np.array([width[each] for each in x.tolist()]) / (0.5 * ship.breadth)
-        level, pinned = self._water_full(forms, x / half - 1.0, y)
-        ends = (
-            (aft[0] / half - 1.0, aft[1] / (0.5 * ship.breadth)),
-            (fore[0] / half - 1.0, fore[1] / (0.5 * ship.breadth)),
-        )
+        y = np.array([width[each] for each in x.tolist()])
+        level, pinned = self._water_full(forms, x / half - 1.0, y / float(y.max()))
+        # A hull that flares all along is narrower at the draught than her breadth.
+        full = 0.5 * ship.breadth if pinned else float(y.max())
+        ends = tuple((end / half - 1.0, breadth / full) for end, breadth in (aft, fore))
         line, left = read_halves(
-            "design waterline", "design_waterline", 0.5 * ship.breadth, x / half - 1.0, y, ends,
-            level, pinned,
+            "design waterline", "design_waterline", full, x / half - 1.0, y / full,
+            (ends[0], ends[1]), level, pinned,
         )  # fmt: skip
-        self._tell("design_waterline", "m", left * 0.5 * ship.breadth,
-                   [f"x = {e:.2f} m" for e in x.tolist()])  # fmt: skip
+        self._tell("design_waterline", "m", left * full, [f"x = {e:.2f} m" for e in x.tolist()])
         x = np.array(sorted(area))
         x = x[(x > aft[0] + 1e-6) & (x < fore[0] - 1e-6)]
         y = np.array([area[each] for each in x.tolist()])
@@ -642,7 +648,7 @@ def _course(use: str, nodes: Iterable[PathNode]) -> FormDefinition:
 
 
 def _through(
-    use: str, x: FloatArray, y: FloatArray, ship: Particulars
+    use: str, x: FloatArray, y: FloatArray, ship: Particulars, tolerance: float
 ) -> tuple[FormDefinition, FloatArray]:
     """Lay a course through points by rising x, with nodes where it misses most."""
     at = [0, len(x) - 1, int(y.argmin()), int(y.argmax())]
@@ -651,7 +657,7 @@ def _through(
         nodes = {f"{k}": (float(x[n]), float(y[n])) for k, n in enumerate(at)}
         made = course(use, nodes, rule="monotone")
         off = Forms.of([made], ship).value(use, x) - y
-        if float(np.abs(off).max()) < _ROUGH * ship.breadth or len(at) == len(x):
+        if float(np.abs(off).max()) < tolerance or len(at) == len(x):
             return made, off
         at.append(int(np.abs(off).argmax()))
 

@@ -407,7 +407,8 @@ def _half(
         min(slope, 1.5), 0.0, math.log(0.125 * chord), math.log(0.25 * chord), 0.0, 0.0, area,
         centroid,
     ])  # fmt: skip
-    slack = max(room, 1e-9)
+    # Without a parallel part both halves end at one place, or short of it.
+    slack = (room if room > 1e-8 else 0.0) if room else 1e-9
     low = np.array([0.0, -60.0, math.log(0.02 * chord), math.log(0.02 * chord), -8.0,
                     -0.15 * span if room else -1e-9, 0.8 * area, centroid - 0.1])  # fmt: skip
     high = np.array([1.57, 60.0, math.log(0.5 * chord), math.log(0.5 * chord), 0.0,

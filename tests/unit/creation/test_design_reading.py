@@ -225,3 +225,12 @@ def test_a_hull_that_cannot_be_read_is_refused(hull: dict[str, object], words: s
     with pytest.raises(ah.errors.BadInputError, match=words):
         made.design()
     assert made.fingerprint == before
+
+
+def test_a_hull_of_few_lines_that_flares_is_read() -> None:
+    """Seven sections, no parallel part, and a waterline narrower than the breadth."""
+    parent = barge()
+    reading = parent.design()
+    again = ah.create(reading.design)
+    assert again.hydrostatics().volume == pytest.approx(parent.hydrostatics().volume, rel=1e-2)
+    assert max(each.largest for each in reading.residuals if each.unit == "m") < 0.03
