@@ -514,7 +514,7 @@ def test_names_in_the_body_plan_belong_to_one_line(open_page: Open, bulk_carrier
 
 
 def test_one_view_alone_shows_the_place_that_was_looked_at(open_page: Open, hull: ah.Hull) -> None:
-    """What was zoomed stays in the middle at its scale, also as the window grows."""
+    """What was zoomed stays in the middle at its scale, there and back, and in another window."""
     hand = open_page(hull)
     hand.near(POINT)
     for act in ("1", "1", ""):

@@ -44,7 +44,7 @@ export function themeOf(wish) {
 
 const SHARE = 0.254, LEAST = 104; // of the height at most, px at least
 
-/** Gives the low views the height that the hull fills at the scale of its length; all of theirs where lengths are compressed. @param {Page} page */
+/** Gives the low views the height that the hull fills; all of theirs where lengths are compressed. @param {Page} page */
 export function layRows(page) {
   const {store, views} = page, box = views.profile.element.parentElement;
   if (!box || !store.net) return;

@@ -325,7 +325,7 @@ function along(view, places, ink, written = new Set(), least = LEAST_GAP) {
   const from = Math.max(places.left, 0), to = view.width;
   for (let k = 1; k < COLUMNS; k++) {
     const x = from + (to - from) * k / COLUMNS, off = view.kind === "body" ? x - view.at(0, 0, 0, 1)[0] : Infinity;
-    // Over the centre plane it would be a name of the aft body and of the fore body.
+    // Over the centre plane it would name aft and fore body.
     if (Math.abs(off) < 4) continue;
     const align = Math.abs(off) > 20 ? "center" : off < 0 ? "right" : "left";
     const met = paths.flatMap(({id, path}) => crossings(path, x).map((y) => ({id, y}))).sort((p, q) => p.y - q.y);

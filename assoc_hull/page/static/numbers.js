@@ -1,4 +1,4 @@
-// Hydrostatics with what they have changed since the page's server began, and the sectional areas.
+// Hydrostatics with their changes, and the sectional areas.
 
 import {Asker} from "./asker.js";
 import {signed} from "./units.js";

@@ -1,4 +1,4 @@
-// The page: its parts, what the server says, and what the actions do. Everything hangs on one root.
+// The page: its parts, what the server says, what actions do.
 
 import {ACTIONS, Keys, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";

@@ -1,4 +1,4 @@
-// What is drawn, and in which order: the hull below, what lives above.
+// What is drawn, in order: the hull below, what lives above.
 
 import {combScale, evaluate, inflections, middleMovement, normalMovement, teeth} from "./hermite.js";
 import {diamond, drawHandles, drawLabels} from "./marks.js";

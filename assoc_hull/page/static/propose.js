@@ -155,7 +155,7 @@ export class Shaper {
     return near < 0 ? shaping.places.length - 1 : near;
   }
 
-  /** On a line that crosses, where it is so near that it was meant: beside it would be two points in one place. @param {import("./view.js").View} view @param {number[]} place */
+  /** On a line that crosses, where so near: beside it would be two points in one place. @param {import("./view.js").View} view @param {number[]} place */
   #snap(view, place) {
     const {store} = this.page, curve = store.shaping?.curve ?? -1, axis = this.#along(curve), reach = SNAP / (axis === view.b ? view.sy : view.axis.s);
     let best = null, least = reach;

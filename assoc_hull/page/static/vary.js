@@ -1,4 +1,4 @@
-// Named parameters of the hull: a wanted value is shown as a ghost, then made as one edit.
+// Named parameters: a wanted value is shown as a ghost, then made.
 
 import {Asker, button, paragraph} from "./asker.js";
 import {costWords} from "./propose.js";

@@ -30,7 +30,7 @@ export class View {
     this.yaw = -0.62;
     this.pitch = 0.42;
     this.width = this.height = 0;
-    /** Size for which the scale was set; that of a hidden view is kept. */
+    /** The last size that was seen. */
     this.set = [0, 0];
     this.fitted = true;
     this.stale = {hull: true, overlay: true};
