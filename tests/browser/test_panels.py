@@ -212,8 +212,6 @@ def test_a_burst_of_arrows_is_made_before_what_is_asked_then(
             box.get_by_text("Keep under this name").click()
         else:
             edits += 1
-            hand.ask(
-                "(p, name) => p.apply('typed', [{op: 'pull', point: name, d: 0.01}])", POINT
-            )
+            hand.ask("(p, name) => p.apply('typed', [{op: 'pull', point: name, d: 0.01}])", POINT)
         hand.until("(p, n) => p.hand.free && p.store.history.edits === n", edits)
         assert hand.ask("p => p.store.problem") is None
