@@ -271,7 +271,7 @@ export class Panel {
       ["last", last.name],
       ...(last.author ? [/** @type {[string, string]} */ (["made by", last.author])] : []),
       ["follow", count(last.relofted, "curve")],
-      ["farthest", last.normal === null ? "–" : `${millimetres(last.normal)} off the hull`],
+      ["farthest", last.normal === null ? "no point moves" : `${millimetres(last.normal)} off the hull`],
       ["inflections", last.inflections ? `${last.inflections} new` : "none new"],
       ...last.notes.slice(0, 4).map((/** @type {string} */ note) => /** @type {[string, string]} */ (["note", note])),
     ]);
