@@ -8,6 +8,7 @@ as they share what is measured; `Outputs` understands the names and joins the ki
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Protocol
 
@@ -432,6 +433,14 @@ def _names(names: object) -> tuple[str, ...]:
     return found
 
 
+def _spoken(word: str) -> float:
+    """Read the number in the name of an output; not a number where it is none."""
+    try:
+        return float(word)
+    except ValueError:
+        return math.nan
+
+
 def _key(name: str, state: HullState) -> tuple[str, str]:
     """Find the kind of an output, and what that kind calls it."""
     if name in FIELDS:
@@ -439,12 +448,12 @@ def _key(name: str, state: HullState) -> tuple[str, str]:
     if name in CATALOGUE:
         return "form", name
     if name.startswith(_AREA + _AT):
-        place = number(name.removeprefix(_AREA + _AT), f"the place in {name!r}", _WHERE)
-        return "place", repr(place)
+        place = _spoken(name.removeprefix(_AREA + _AT))
+        return "place", repr(number(place, f"the place in {name!r}", _WHERE))
     if name.startswith(_AREA):
         return "station", name.removeprefix(_AREA)
     if name.startswith(_RESISTANCE) and name.endswith(_KNOTS):
-        speed = name[len(_RESISTANCE) : -len(_KNOTS)]
+        speed = _spoken(name[len(_RESISTANCE) : -len(_KNOTS)])
         return "resistance", repr(number(speed, f"the speed in {name!r}", _WHERE, unit="kn"))
     stations = (_AREA + each for each in flotation(state).sections.names)
     known = (*FIELDS, *CATALOGUE, *stations, "R 14 kn")
