@@ -1,6 +1,7 @@
 """The calls `hydrostatics`, `hydrostatic_table` and their kin: options and refusals."""
 
 import math
+from fractions import Fraction
 from typing import Any
 
 import attrs
@@ -116,15 +117,18 @@ def test_an_odd_option_is_refused_by_name(
 
 
 @pytest.mark.usefixtures("body")
-def test_numbers_that_come_as_text_count_as_numbers(hull: ah.Hull) -> None:
-    """Wherever a number is taken, text that is one is taken alike; what is kept is the number."""
-    given: dict[str, Any] = {"rho": "1.0", "shell_factor": "1.01", "kg": "4", "heel_deg": "0"}
+def test_numbers_of_other_sorts_count_as_numbers(hull: ah.Hull) -> None:
+    """Wherever a number is taken; what is kept is the plain number."""
+    given: dict[str, Any] = {
+        "rho": np.float64(1.0), "shell_factor": Fraction(101, 100), "kg": np.int64(4),
+        "heel_deg": np.array(0),
+    }  # fmt: skip
     meant: dict[str, Any] = {"rho": 1.0, "shell_factor": 1.01, "kg": 4.0, "heel_deg": 0.0}
     one, other = (hull.hydrostatics(draught=5.0, **each) for each in (given, meant))
     assert (one.displacement, one.gmt) == (other.displacement, other.gmt)
     del given["heel_deg"], meant["heel_deg"]
     assert hull.immersion(5125.0, **given) == hull.immersion(5125.0, **meant)
-    assert type(FloatingPosition("6", np.float64(5.0)).draught_aft) is float  # type: ignore[arg-type]
+    assert type(FloatingPosition(np.int64(6), np.float64(5.0)).draught_aft) is float  # type: ignore[arg-type]
 
 
 @pytest.mark.usefixtures("body")

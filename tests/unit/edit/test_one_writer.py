@@ -153,7 +153,7 @@ def test_an_open_edit_takes_nothing_from_another_thread(
 def test_a_wait_that_is_none_is_told_in_seconds(hull: ah.Hull) -> None:
     """It is no length."""
     with pytest.raises(BadInputError, match=r"up to 1e\+06 s$"):
-        hull.edit("one", wait="x")  # type: ignore[arg-type]
+        hull.edit("one", wait=float("nan"))
 
 
 # --------------------------------------------------------------------------------------
