@@ -336,10 +336,13 @@ class UnknownNameError(AssocHullError, KeyError):
     name: str
     known: tuple[str, ...] = ()
     meant: str = ""
+    remedy: str = ""
 
     def __str__(self) -> str:
         import difflib  # a message only: what merely starts does not wait for it
 
+        if self.remedy:
+            return f"there is no {self.kind} named {self.name!r}; {self.remedy}"
         if self.meant:
             return f"there is no {self.kind} named {self.name!r}; it is called {self.meant!r}"
         near = difflib.get_close_matches(str(self.name), self.known, n=3, cutoff=0.4)

@@ -13,7 +13,7 @@ import shutil
 import sys
 import textwrap
 from collections.abc import Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from assoc_hull.cli.command_table import COMMANDS, GROUPS, SYNONYMS, Command
 from assoc_hull.cli.problems import UsageError
@@ -43,9 +43,20 @@ class _Parser(argparse.ArgumentParser):
     """Raises where argparse would print several lines and leave."""
 
     def error(self, message: str) -> NoReturn:
-        if message.startswith("unrecognized arguments"):
-            message += "; options stand behind all values"
         raise UsageError(f"{message}, in {self.prog}; see: {self.prog} --help")
+
+
+class _CommandParser(_Parser):
+    """Tells itself of arguments it does not know; the parser above would not name the command."""
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        found, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            remedy = "there is no such option"
+            if not any(word.startswith("-") for word in unknown):
+                remedy = "options stand behind all values"
+            self.error(f"unrecognized arguments: {' '.join(unknown)}; {remedy}")
+        return found, unknown
 
 
 class _MainParser(_Parser):
@@ -90,7 +101,7 @@ def make_parser(words: Sequence[str] | None = None) -> argparse.ArgumentParser:
     parser = _MainParser(prog="assoc-hull", epilog=_EXAMPLES)
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands: argparse._SubParsersAction[argparse.ArgumentParser] = parser.add_subparsers(
-        metavar="COMMAND", required=True, parser_class=_Parser
+        metavar="COMMAND", required=True, parser_class=_CommandParser
     )
     for module, adder in dict.fromkeys((c.module, c.adder) for c in _chosen(words)):
         getattr(importlib.import_module(f"assoc_hull.cli.{module}"), adder)(commands)

@@ -452,7 +452,10 @@ def _values(given: object) -> dict[str, float]:
     for name in given:
         if name not in NAMES:
             word = shown_name(name)
-            raise UnknownNameError("named parameter", word, NAMES, _SPOKEN.get(word, ""))
+            remedy = "it is an output: give reach={name: value}, and free=[names] of parameters"
+            raise UnknownNameError(
+                "named parameter", word, NAMES, _SPOKEN.get(word, ""), remedy * (word in _OUTPUTS)
+            )
     found = {name: number(given[name], name, "in vary") for name in NAMES if name in given}
     for name, value in found.items():
         if CATALOGUE[name].positive and not value > 0.0:
