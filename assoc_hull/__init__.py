@@ -145,6 +145,10 @@ _PUBLIC: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "creation": {
         "creation.design": ("Design",),
+        "creation.design_reading": (
+            "CurveResidual",
+            "DesignReading",
+        ),
         "creation.form_curve": ("FormCurve",),
         "creation.six_numbers": ("DesignNote",),
         "creation.form_definitions": (

@@ -146,8 +146,8 @@ def _refuse_texts(given: object, values: object, name: str, where: str) -> None:
     each = values if isinstance(values, list | tuple) else [values]
     if not any(_is_text(value) for value in each):
         return
-    what = "is the text" if isinstance(given, str | bytes) else "holds text:"
-    raise BadInputError(f"{name} {what} {shown(given)}", where, "give numbers, without quotes")
+    remedy = "give numbers, not text: without quotes"
+    raise BadInputError(f"{name} is {shown(given)}", where, remedy)
 
 
 def _is_text(value: object) -> bool:

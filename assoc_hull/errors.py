@@ -336,15 +336,12 @@ class UnknownNameError(AssocHullError, KeyError):
     name: str
     known: tuple[str, ...] = ()
     meant: str = ""
-    remedy: str = ""
 
     def __str__(self) -> str:
         import difflib  # a message only: what merely starts does not wait for it
 
         if self.meant:
             return f"there is no {self.kind} named {self.name!r}; it is called {self.meant!r}"
-        if self.remedy:
-            return f"there is no {self.kind} named {self.name!r}; {self.remedy}"
         near = difflib.get_close_matches(str(self.name), self.known, n=3, cutoff=0.4)
         hint = "the nearest names are " + ", ".join(map(repr, near)) if near else "list them first"
         return f"there is no {self.kind} named {self.name!r}; {hint}"

@@ -170,6 +170,14 @@ def six_numbers() -> Figure:
     return lines_plan(hull, paper="A4")
 
 
+def trawler() -> Figure:
+    """Draw the lines plan of a trawler from six numbers."""
+    hull = ah.create(
+        length=40.0, breadth=9.5, draught=4.0, depth=6.0, cb=0.56, lcb_percent=-2.0, type="trawler"
+    )
+    return lines_plan(hull, paper="A4")
+
+
 def history_change() -> Figure:
     """Draw what two edits have changed since the first state, 50 times as large."""
     hull = examples.wigley()
@@ -204,6 +212,7 @@ def definitions() -> Figure:
 PICTURES: dict[str, Callable[[], Figure]] = {
     "plain_ship": plain_ship,
     "six_numbers": six_numbers,
+    "trawler": trawler,
     "history_change": history_change,
     "definitions": definitions,
     "prelikon_ship": prelikon_ship,

@@ -42,6 +42,27 @@ _OWN = ("-h", "--help", "--version")
 class _Parser(argparse.ArgumentParser):
     """Raises where argparse would print several lines and leave."""
 
+    def __init__(self, **given: Any) -> None:
+        # an option in short may be another one tomorrow: --to was taken for --tolerance
+        super().__init__(**{"allow_abbrev": False, **given})
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Refuse what is left over here, where the options of the command are known."""
+        found, rest = super().parse_known_args(args, namespace)
+        if rest:
+            self.error(f"unrecognized arguments: {' '.join(rest)}{self._meant(rest)}")
+        return found, rest
+
+    def _meant(self, rest: Sequence[str]) -> str:
+        """Say which option a word that was not known stands for, perhaps."""
+        unknown = [each.partition("=")[0] for each in rest if each.startswith("-")]
+        if not unknown:
+            return "; options stand behind all values"
+        options = [each for action in self._actions for each in action.option_strings]
+        near = difflib.get_close_matches(unknown[0], options, 3, 0.6)
+        meant = " or ".join(f"'{each}'" for each in near)
+        return f"; did you mean {meant}?" if meant else f"; there is no option '{unknown[0]}'"
+
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{message}, in {self.prog}; see: {self.prog} --help")
 

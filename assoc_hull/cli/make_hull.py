@@ -439,7 +439,7 @@ def _tell(
 # The command that creates a hull from a design, by form parameters.
 
 
-_TYPES = "bulk carrier (default), tanker, container ship, general cargo, ro-ro, yacht canoe body"
+_TYPES = "bulk carrier (default), tanker, container ship, general cargo, ro-ro, trawler, yacht"
 _SIX = (
     "length", "breadth", "draught", "depth", "cb", "lcb", "lcb_percent", "cm", "bilge_radius", "cw",
 )  # fmt: skip

@@ -98,8 +98,11 @@ def why_document(cause: Why, told: set[str] | None = None) -> dict[str, Any]:
 def progress(what: str) -> Iterator[None]:
     """Say on standard error what is being done and since when, if a person would wait for it.
 
-    Nothing may be printed meanwhile.
+    Nothing may be printed meanwhile; nothing is where no terminal shows it.
     """
+    if sys.stderr is None or not sys.stderr.isatty():
+        yield
+        return
 
     def show() -> contextlib.AbstractContextManager[Any]:
         from rich.console import Console

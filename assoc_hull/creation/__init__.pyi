@@ -1,6 +1,8 @@
 # What `assoc_hull.creation` offers, for type checkers and editors; at run time `assoc_hull`
 # fills the package on first use, as some of these names stand above it.
 from assoc_hull.creation.design import Design as Design
+from assoc_hull.creation.design_reading import CurveResidual as CurveResidual
+from assoc_hull.creation.design_reading import DesignReading as DesignReading
 from assoc_hull.creation.form_curve import FormCurve as FormCurve
 from assoc_hull.creation.form_definitions import course as course
 from assoc_hull.creation.form_definitions import design_waterline as design_waterline

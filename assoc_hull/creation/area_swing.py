@@ -13,14 +13,17 @@ from collections.abc import Callable
 
 import attrs
 import numpy as np
-from scipy.optimize import root_scalar
+from scipy.optimize import root, root_scalar
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curves.integrals import form_integrals
 from assoc_hull.model.form_definition import FormDefinition
+from assoc_hull.model.forms.closure import coefficients
 from assoc_hull.model.forms.two_halves import half_fault, half_number, half_vertices
+from assoc_hull.model.tables import Particulars
 
-__all__ = ["SwungAreas", "half_sums", "scaled_half", "swing_areas"]
+__all__ = ["SwungAreas", "half_sums", "move_parallel_part", "scaled_half", "swing_areas"]
 
 _GAP = 0.02
 """The parallel part is at least this long, so that its ends are two places."""
@@ -113,6 +116,48 @@ def swing_areas(definition: FormDefinition, fullness: float, centroid: float) ->
         return _shortened(definition, fullness, centroid, "run")
     found = scaled_half(scaled_half(definition, "run", ends[0]), "entrance", ends[1])
     return SwungAreas(_sound(found), "both halves keep their fullness; the parallel part moves")
+
+
+def move_parallel_part(
+    definition: FormDefinition, ship: Particulars, *, cb: float | None, lcb: float | None
+) -> FormDefinition:
+    """Give a curve of areas with a block coefficient and a centre of buoyancy (m from midship).
+
+    Its halves may end anywhere; what is None stays. Raises BadInputError where no place of the
+    parallel part gives both.
+    """
+    old = coefficients(definition, ship)
+    assert old.block is not None
+    full = old.block / old.fullness
+    wanted = old.block if cb is None else cb, old.centroid if lcb is None else lcb
+    inner = [half_number(definition, name) for name in ("run_end", "entrance_start")]
+    outer = [half_number(definition, name) for name in ("run_start", "entrance_end")]
+    sums = [half_sums(definition, half) for half in _ENDS]
+
+    def miss(ends: FloatArray) -> list[float]:
+        # By sums: a trial may be no curve that can be drawn.
+        area, moment = ends[1] - ends[0], 0.5 * (ends[1] ** 2 - ends[0] ** 2)
+        for end, place, fixed, (own, at) in zip(ends, inner, outer, sums, strict=True):
+            by = (end - fixed) / (place - fixed)
+            area += own * by
+            moment += own * by * (fixed + (at - fixed) * by)
+        return [0.5 * area * full - wanted[0], moment / area - 2.0 * wanted[1] / ship.length]
+
+    found = root(miss, np.array(inner), tol=1e-14)
+    low, high = found.x.tolist()
+    why = ""
+    if not (float(np.abs(found.fun).max()) < 1e-10 and outer[0] < low <= high < outer[1]):
+        why = "no place of the parallel part gives them"
+    else:
+        swung = scaled_half(scaled_half(definition, "run", low), "entrance", high)
+        faults = [f"the {half} {half_fault(swung, half)}" for half in _ENDS
+                  if half_fault(swung, half)]  # fmt: skip
+        why = ", and ".join(faults)
+    if why:
+        what = f"cb of {wanted[0]:.6g} with lcb of {wanted[1]:.6g} m: {why}"
+        remedy = f"ask for less than this change from {old.block:.6g} and {old.centroid:.6g} m"
+        raise BadInputError(what, f"in the definition {definition.name!r}", remedy)
+    return swung
 
 
 def _swung(

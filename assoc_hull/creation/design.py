@@ -160,6 +160,49 @@ class Design:
             found = found.having(close_halves(self.definition("design_waterline"), ship, **line))
         return found
 
+    def swung(self, *, cb: float | None = None, lcb: float | None = None) -> Design:
+        """Give the same design with the parallel part of its curve of areas moved to these.
+
+        Run and entrance are stretched toward it, and keep fullness and centroid in parts of their
+        own lengths: that leaves more room than `closed`, by which the entrance alone gives.
+
+        Parameters
+        ----------
+        cb : float or None
+            Block coefficient; that of the curve as it is if None.
+        lcb : float or None, m
+            Centre of buoyancy from midship, forward positive; likewise.
+
+        Returns
+        -------
+        Design
+
+        Raises
+        ------
+        BadInputError
+            No place of the parallel part gives them, or a half folds back with it.
+
+        Examples
+        --------
+        >>> from assoc_hull.model.forms.closure import coefficients
+        >>> from assoc_hull.shipped.plain_ship import plain_ship_design
+        >>> design = plain_ship_design().swung(cb=0.69)
+        >>> found = coefficients(design.definition("sectional_area"), design.particulars)
+        >>> round(found.block, 9), round(found.centroid, 9)
+        (0.69, -0.6)
+        """
+        from assoc_hull.creation.area_swing import move_parallel_part
+
+        given = {
+            name: value if value is None else number(value, name, "in swung")
+            for name, value in (("cb", cb), ("lcb", lcb))
+        }
+        if cb is None and lcb is None:
+            return self
+        return self.having(
+            move_parallel_part(self.definition("sectional_area"), self.particulars, **given)
+        )
+
     def to_json(self) -> str:
         """Give the design as JSON text, every number to its last bit; it ends with a newline."""
         return design_json(self)

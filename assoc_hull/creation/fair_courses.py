@@ -42,7 +42,7 @@ from assoc_hull.model.forms.sections import (
     underwater_pieces,
 )
 
-__all__ = ["fair_courses"]
+__all__ = ["GivenForms", "fair_courses"]
 
 # --------------------------------------------------------------------------------------
 # Numbers.
@@ -229,7 +229,7 @@ class _Lenient(SectionEnds):
 
 
 @attrs.frozen(eq=False)
-class _Read(Forms):
+class GivenForms(Forms):
     """Definitions some of which have other values where sections stand."""
 
     given: Mapping[str, FloatArray] = attrs.field(factory=dict)
@@ -417,7 +417,7 @@ class _Group:
             if rates:
                 tiled[number + 1] += steps[number]
             given[use] = tiled.ravel()
-        forms = _Read(family.forms.definitions, family.forms.particulars, given)
+        forms = GivenForms(family.forms.definitions, family.forms.particulars, given)
         rows = np.tile(here, blocks)
         stand = _Lenient.of(forms, family.x[rows], family.ends[rows])
         lower, upper = parts_at_draught(layout)

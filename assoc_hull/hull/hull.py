@@ -81,6 +81,7 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.stability.righting_lever import TrimRule
     from assoc_hull.analysis.stability.stability_report import Stability
     from assoc_hull.creation.creation_report import CreationReport
+    from assoc_hull.creation.design_reading import DesignReading
     from assoc_hull.creation.six_numbers import DesignNote
     from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
     from assoc_hull.edit.checks.finding import Finding
@@ -2129,6 +2130,50 @@ features
         from assoc_hull.variation.comparing.comparison import compare
 
         return compare(self, variant, draught=draught, screw=screw)
+
+    def design(self) -> DesignReading:
+        """Read form parameters off this hull: a design of which `create` makes it again.
+
+        Contour, deck edge and flats become courses. The curve of areas becomes two halves with the
+        volume and the centre of buoyancy of either half of the hull, up to the forward end of the
+        waterline; so does the waterline at the draught, by least squares. Sections become
+        form-parameter curves of seven vertices, with the area of the curve of areas; their angles,
+        curvatures and tangents are nodes of courses at the stations. A bilge radius is read where
+        the parallel body has flats and an arc, a bulb where sections close ahead of the stem.
+
+        Returns
+        -------
+        DesignReading
+            ``design``, the design, whose values can be changed; ``residuals``, how far each curve
+            lies off (m, m2 for areas: root mean square, largest, and where); ``notes``, what was
+            left out and why. Of a hull that was created its own design, without residuals; a note
+            says so.
+
+        Raises
+        ------
+        BadInputError
+            No profile, no deck edge, or fewer than five sections; the hull is open ahead or abaft;
+            the profile does not rise through the draught; a transom that cannot be made.
+
+        References
+        ----------
+        S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans. SNAK
+        29(2), 1992.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> parent = ah.examples.wigley()
+        >>> found = parent.design()
+        >>> again = ah.create(found.design)
+        >>> round(again.hydrostatics().volume / parent.hydrostatics().volume, 4)
+        1.0
+        >>> found.residual("ST 5").largest < 0.01
+        True
+        """
+        from assoc_hull.creation.design_reading import design_of_hull
+
+        return design_of_hull(self.state)
 
     # ----------------------------------------------------------------------------------
     # Other hulls from this one.

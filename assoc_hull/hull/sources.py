@@ -173,8 +173,8 @@ def create(
     lcb, lcb_percent : float, m and % of the length
         Centre of buoyancy from midship, forward positive; one of them.
     type : str
-        ``"bulk carrier"``, ``"tanker"``, ``"container ship"``, ``"general cargo"``, ``"ro-ro"`` or
-        ``"yacht canoe body"``, whose length is that of the waterline.
+        ``"bulk carrier"``, ``"tanker"``, ``"container ship"``, ``"general cargo"``, ``"ro-ro"``,
+        ``"trawler"`` or ``"yacht canoe body"``, whose length is that of the waterline.
     cm : float or None
         Midship section coefficient; by a formula if neither it nor `bilge_radius` is given.
     bilge_radius : float or None, m

@@ -9,12 +9,13 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from assoc_hull.creation.six_numbers import ShipType
-from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.errors import UnknownNameError
 from assoc_hull.shipped.fair_designs import (
     fair_bulk_carrier_design,
     fair_container_ship_design,
     fair_plain_ship_design,
 )
+from assoc_hull.shipped.trawler_design import draw_trawler, trawler_design
 from assoc_hull.shipped.yacht_design import draw_yacht, yacht_design
 
 __all__ = ["SHIP_TYPES", "ship_type"]
@@ -49,6 +50,11 @@ SHIP_TYPES: Mapping[str, ShipType] = MappingProxyType({
             remark="a single skeg; no twin skeg is drawn",
         ),
         ShipType(
+            "trawler", trawler_design, (20.0, 70.0),
+            _ratios((3.2, 5.0), (2.0, 2.8), (1.25, 2.0), (0.50, 0.62), (-4.0, -0.5)), -1.0,
+            draw=draw_trawler,
+        ),
+        ShipType(
             "yacht canoe body", yacht_design, (8.0, 30.0),
             _ratios((2.9, 4.2), (4.0, 8.0), (2.2, 5.0), (0.36, 0.43), (-6.0, -2.0)), -1.0,
             draw=draw_yacht,
@@ -57,24 +63,14 @@ SHIP_TYPES: Mapping[str, ShipType] = MappingProxyType({
 })  # fmt: skip
 """By name."""
 
-_NOT_YET = {
-    "trawler": "it needs a raked keel and a rise of floor, which no design here has",
-}
-
 
 def ship_type(name: str) -> ShipType:
     """Give a type by its name, in any case.
 
-    Raises UnknownNameError, or BadInputError for one that is not made well.
+    Raises UnknownNameError.
     """
     name = " ".join(name.lower().split())
     name = "yacht canoe body" if name in ("yacht", "canoe body") else name
-    if name in _NOT_YET:
-        known = ", ".join(SHIP_TYPES)
-        raise BadInputError(
-            f"a {name} cannot be made well from six numbers: {_NOT_YET[name]}", "in create",
-            f"give one of {known}, or a design of your own",
-        )  # fmt: skip
     if name not in SHIP_TYPES:
-        raise UnknownNameError("type of ship", name, (*SHIP_TYPES, *_NOT_YET))
+        raise UnknownNameError("type of ship", name, tuple(SHIP_TYPES))
     return SHIP_TYPES[name]

@@ -21,7 +21,7 @@ Examples
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -39,7 +39,10 @@ from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.two_halves import half_number
 from assoc_hull.model.tables import Particulars
 
-__all__ = ["draw_yacht", "yacht_design"]
+__all__ = [
+    "contour_of", "draw_yacht", "levels_of", "rounded", "section_courses", "section_values",
+    "yacht_design",
+]  # fmt: skip
 
 _CALL = "in a yacht from six numbers"
 
@@ -76,7 +79,7 @@ def draw_yacht(
         ship,
         [areas, line, profile, *_deck(ship, profile, forms), *_courses(ship, profile, forms)],
         stations=_stations(ship, profile),
-        waterlines=_levels(ship), buttocks=_rounded(0.5 * ship.breadth * np.array(_BUTTOCKS)),
+        waterlines=levels_of(ship), buttocks=rounded(0.5 * ship.breadth * np.array(_BUTTOCKS)),
         transom=profile.value("transom_x"),
     )  # fmt: skip
     notes = _notes(ship, made, entry, design)
@@ -181,24 +184,41 @@ above the waterline, in parts of the freeboard."""
 
 def _profile(ship: Particulars, depths: CubicSpline) -> FormDefinition:
     """Give the contour with a counter abaft the waterline and a stem ahead of it."""
-    half, free = 0.5 * ship.length, ship.depth - ship.draught
+    shape = np.array([depths(_MARKS, order) for order in range(3)])
+    labels = ("AP", *(f"keel {number}" for number in range(1, len(_MARKS) - 1)), "FP")
+    rise = _RISE * (ship.depth - ship.draught)
+    return contour_of(ship, labels, np.array(_MARKS), shape, 0.0, _AFTER, rise, _STEM)
+
+
+def contour_of(
+    ship: Particulars, labels: Sequence[str], marks: FloatArray, shape: FloatArray, aft: float,
+    overhang: float, rise: float, head: float,
+) -> FormDefinition:  # fmt: skip
+    """Give a contour with a counter abaft the waterline and a stem ahead of it.
+
+    `shape` (3, n) are depths in parts of the draught and their derivatives by s at `marks`; `aft`
+    (m) is the after end of the waterline, `overhang` at most that of the transom in parts of the
+    length, `rise` (m) the height of the stem's head above the waterline, `head` its angle, deg.
+    """
+    half, free = 0.5 * (ship.length - aft), ship.depth - ship.draught
     nodes: dict[str, Mapping[str, float | None]] = {}
-    for number, mark in enumerate(_MARKS):
-        slope, bend = (-ship.draught / half**order * float(depths(mark, order)) for order in (1, 2))
-        label = {0: "AP", len(_MARKS) - 1: "FP"}.get(number, f"keel {number}")
+    for label, mark, (deep, *rates) in zip(labels, marks.tolist(), shape.T.tolist(), strict=True):
+        slope, bend = (-ship.draught / half**n * rate for n, rate in enumerate(rates, 1))
         nodes[label] = {
-            "x": half * (1.0 + mark), "y": ship.draught * (1.0 - float(depths(mark))),
+            "x": aft + half * (1.0 + mark), "y": ship.draught * (1.0 - deep),
             "angle_deg": math.degrees(math.atan(slope)), "curvature": bend / (1 + slope**2) ** 1.5,
         }  # fmt: skip
-    aft, fore = (math.tan(math.radians(nodes[end]["angle_deg"] or 0.0)) for end in ("AP", "FP"))
+    stern, fore = (
+        math.tan(math.radians(nodes[end]["angle_deg"] or 0.0)) for end in (labels[0], labels[-1])
+    )
     # A counter that would come near the deck is shorter.
-    over = min(_AFTER * ship.length, 0.4 * free / -aft)
+    over = min(overhang * ship.length, 0.4 * free / -stern)
     transom = {
-        "x": -over, "y": ship.draught - 0.92 * aft * over,
-        "angle_deg": math.degrees(math.atan(0.8 * aft)),
+        "x": aft - over, "y": ship.draught - 0.92 * stern * over,
+        "angle_deg": math.degrees(math.atan(0.8 * stern)),
     }  # fmt: skip
-    rise, begin = _RISE * free, math.degrees(math.atan(fore))
-    ahead = min(rise / math.tan(math.radians(0.5 * (begin + _STEM))), _AHEAD * ship.length)
+    begin = math.degrees(math.atan(fore))
+    ahead = min(rise / math.tan(math.radians(0.5 * (begin + head))), _AHEAD * ship.length)
     # The chord of the stem halves its angles: it bends one way.
     end = min(2.0 * math.degrees(math.atan(rise / ahead)) - begin, 80.0)
     stem = {"x": ship.length + ahead, "y": ship.draught + rise, "angle_deg": end}
@@ -220,22 +240,44 @@ def _courses(ship: Particulars, profile: FormDefinition, forms: Forms) -> list[F
     corner = 3.0 * (0.5 * forms.value("sectional_area", x) / (wide * deep) - 0.5)
     corner[[0, -1]] = 0.0
     v, u = 0.5 + 0.6 * corner, 0.5 - 0.4 * corner
-    low, high = np.hypot(deep * u, wide * v), np.hypot(deep * (1.0 - u), wide * (1.0 - v))
-    bend, chord = -0.5 * deep * wide * corner, np.hypot(deep, wide)
-    flare = np.arctan2(wide * (1.0 - v), deep * (1.0 - u))
     # Near AP a section bends upward as those abaft it do, which end on the contour.
     after = _AFTERWARD * np.exp(-x / (0.08 * ship.length))
+    values = section_values(ship, wide, deep, np.array([u, v]), 0.5, 0.5, after)
+    return section_courses(ship, profile, forms, x, values, 0.0)
+
+
+def section_values(
+    ship: Particulars, wide: FloatArray, deep: FloatArray, corner: FloatArray,
+    pace: float | FloatArray, bent: float | FloatArray, after: FloatArray,
+) -> dict[str, FloatArray]:  # fmt: skip
+    """Give the values of courses at sections of half-breadths and depths, m, at the waterline.
+
+    `corner` (2, n) is where the tangents at their ends meet, in parts of depth and half-breadth;
+    `pace` are tangents in parts of the sides to it, `bent` curvatures in parts of twice those that
+    a parabola has; both are .5 for parabolas. `after` bends them upward near the stern.
+    """
+    u, v = corner
+    low, high = np.hypot(deep * u, wide * v), np.hypot(deep * (1.0 - u), wide * (1.0 - v))
+    bend, chord = -bent * deep * wide * (v - u), np.hypot(deep, wide)
+    flare = np.arctan2(wide * (1.0 - v), deep * (1.0 - u))
     over = -bend / high**3 * (1.0 + after)
     # More than this and a topside would turn back before it comes to the deck edge.
     most = 2.6 * np.maximum(flare - 0.05, 0.02) / (ship.depth - ship.draught)
-    values = {
+    return {
         "keel_angle": np.degrees(np.arctan2(wide * v, deep * u)),
         "keel_curvature": bend / low**3 * (1.0 - np.minimum(after, 1.0)),
-        "keel_tangent": 2.0 * low / chord,
+        "keel_tangent": 4.0 * pace * low / chord,
         "waterline_angle": np.degrees(flare),
         "waterline_curvature": -over * most / np.hypot(over, most),
-        "waterline_tangent": 2.0 * high / chord,
+        "waterline_tangent": 4.0 * pace * high / chord,
     }
+
+
+def section_courses(
+    ship: Particulars, profile: FormDefinition, forms: Forms, x: FloatArray,
+    values: Mapping[str, FloatArray], aft: float,
+) -> list[FormDefinition]:  # fmt: skip
+    """Give courses through values at x, m; `aft` (m) is the after end of the waterline."""
     found = []
     for use, ordinates in values.items():
         nodes: dict[str, Mapping[str, float | None]] = {
@@ -243,7 +285,7 @@ def _courses(ship: Particulars, profile: FormDefinition, forms: Forms) -> list[F
             for number, (at, y) in enumerate(zip(x, ordinates, strict=True))
         }
         if use == "keel_angle":
-            nodes = _beyond_ends(ship, profile, forms, nodes, values["waterline_angle"])
+            nodes = _beyond_ends(ship, profile, forms, nodes, values["waterline_angle"], aft)
         elif use == "keel_curvature":
             nodes["stem"] = {"x": profile.value("stem_x"), "y": 0.0}
         found.append(course(use, nodes, rule="spline"))
@@ -258,21 +300,21 @@ _STEM_ENTRY = 26.0
 
 def _beyond_ends(
     ship: Particulars, profile: FormDefinition, forms: Forms,
-    nodes: Mapping[str, Mapping[str, float | None]], flare: FloatArray,
+    nodes: Mapping[str, Mapping[str, float | None]], flare: FloatArray, aft: float,
 ) -> dict[str, Mapping[str, float | None]]:  # fmt: skip
-    """Add nodes of the angle at the contour abaft AP and ahead of FP."""
+    """Add nodes of the angle at the contour abaft the waterline and ahead of FP."""
     first, *others = nodes.items()
     x = np.array([each["x"] for each in nodes.values()], np.float64)
     y = np.array([each["y"] for each in nodes.values()], np.float64)
     rate, own = (float(CubicSpline(x, each)(x[0], 1)) for each in (flare, y))
-    # Abaft AP a section begins at the contour with what it has at the waterline ahead of AP.
+    # Abaft the waterline a section begins at the contour with what it has there ahead of its end.
     corner = {
         **first[1], "angle_deg": math.degrees(math.atan(rate)),
         "leave_angle_deg": math.degrees(math.atan(own)),
     }  # fmt: skip
     stern, bow = (profile.value(f"{end}_x") or 0.0 for end in ("transom", "stem"))
     found: dict[str, Mapping[str, float | None]] = {
-        "transom": {"x": stern, "y": float(y[0]) + 0.6 * rate * stern},
+        "transom": {"x": stern, "y": float(y[0]) + 0.6 * rate * (stern - aft)},
         first[0]: corner, **dict(others),
     }  # fmt: skip
     # Ahead of FP waterlines end with angles between those of entrance and stem.
@@ -329,7 +371,8 @@ _BUTTOCKS = (0.2, 0.4, 0.6, 0.8)
 _BELOW, _ABOVE = (0.2, 0.4, 0.6, 0.8), (0.25, 0.5, 0.75)
 
 
-def _rounded(values: FloatArray) -> tuple[float, ...]:
+def rounded(values: FloatArray) -> tuple[float, ...]:
+    """Give places, m, to a millimetre."""
     return tuple(round(each, 3) for each in values.tolist())
 
 
@@ -342,11 +385,12 @@ def _stations(ship: Particulars, profile: FormDefinition) -> tuple[float, ...]:
     )  # fmt: skip
 
 
-def _levels(ship: Particulars) -> tuple[float, ...]:
+def levels_of(ship: Particulars) -> tuple[float, ...]:
+    """Give heights of waterlines."""
     free = ship.depth - ship.draught
     return (
-        *_rounded(ship.draught * np.array(_BELOW)), ship.draught,
-        *_rounded(ship.draught + free * np.array(_ABOVE)),
+        *rounded(ship.draught * np.array(_BELOW)), ship.draught,
+        *rounded(ship.draught + free * np.array(_ABOVE)),
     )  # fmt: skip
 
 

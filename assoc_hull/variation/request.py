@@ -213,6 +213,11 @@ def rank_of_output(name: str) -> tuple[int, str]:
     return _OUTPUTS.get(name, len(_OUTPUTS)), name
 
 
+def _output_like(name: str) -> str:
+    """Give the output that has this name, in any case; empty if none has."""
+    return next((each for each in _OUTPUTS if each.lower() == name.lower()), "")
+
+
 def _one(given: object) -> str | Layer:
     """Take one thing that is free."""
     if isinstance(given, str):
@@ -452,10 +457,13 @@ def _values(given: object) -> dict[str, float]:
     for name in given:
         if name not in NAMES:
             word = shown_name(name)
-            remedy = "it is an output: give reach={name: value}, and free=[names] of parameters"
-            raise UnknownNameError(
-                "named parameter", word, NAMES, _SPOKEN.get(word, ""), remedy * (word in _OUTPUTS)
-            )
+            if word not in _SPOKEN and (output := _output_like(word)):
+                raise BadInputError(
+                    f"{word} is no named parameter: it is what a hull comes to have", "in vary",
+                    f"ask for reach={{{output!r}: ...}} with free=[...] "
+                    f"(--reach {output}=... --free ...)",
+                )  # fmt: skip
+            raise UnknownNameError("named parameter", word, NAMES, _SPOKEN.get(word, ""))
     found = {name: number(given[name], name, "in vary") for name in NAMES if name in given}
     for name, value in found.items():
         if CATALOGUE[name].positive and not value > 0.0:

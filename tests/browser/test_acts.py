@@ -135,8 +135,8 @@ def test_what_is_said_is_not_wiped_away_by_the_next_frame(open_page: Open, hull:
     """A refusal of a typed value stands in the line below until there was time to read it."""
     hand = open_page(hull)
     hand.ask("(p, name) => p.find(name)", POINT)
-    hand.page.get_by_label("pull by, mm").fill("far")
-    hand.page.get_by_label("pull by, mm").press("Enter")
+    hand.page.get_by_label("pull outward, mm").fill("far")
+    hand.page.get_by_label("pull outward, mm").press("Enter")
     hand.ask("p => p.store.changed('panel')")
     hand.settled()
     assert '"far" is no pull' in hand.page.locator(".page > footer").inner_text()
@@ -164,3 +164,24 @@ def test_the_low_views_take_no_more_room_than_their_hull(open_page: Open, hull: 
     hand.ask("p => p.compress(5)")
     hand.settled()
     assert hand.ask(high)[1] > profile
+
+
+def test_a_letter_in_the_panel_says_where_letters_act(open_page: Open, hull: ah.Hull) -> None:
+    """One Esc leads there from a list, with what it has marked still marked."""
+    hand = open_page(hull)
+    hand.ask("(p, name) => p.goTo(name, null)", POINT)
+    opened(hand, "History").locator("summary").focus()
+    keys(hand, "n")
+    assert "Esc leads there" in hand.page.locator(".page > footer").inner_text()
+    keys(hand, "Escape")
+    assert hand.ask("p => document.activeElement === p.activeView().upper && !!p.store.marked")
+
+
+def test_no_name_to_sign_with_leaves_the_one_before(open_page: Open, hull: ah.Hull) -> None:
+    """The field shows by whom edits are signed, whatever was typed."""
+    hand = open_page(hull)
+    field = hand.page.get_by_label("name that your edits are signed with")
+    for typed, kept in (("  ", "anna"), (" bert ", "bert")):
+        field.fill(typed)
+        field.press("Enter")
+        assert field.input_value() == kept

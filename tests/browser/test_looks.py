@@ -484,3 +484,49 @@ def test_what_is_wrong_is_listed_and_found(open_page: Open, hull: ah.Hull) -> No
     hand.until("p => p.store.history.edits === 1")
     hand.settled()
     assert "before the last edit" in hand.page.locator("aside").inner_text()
+
+
+WRITTEN = (
+    "window.written = []; const kept = CanvasRenderingContext2D.prototype.fillText;"
+    " CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {"
+    " window.written.push([this.canvas.closest('.view')?.className, text, x, y,"
+    " this.measureText(text).width]); return kept.call(this, text, x, y); };"
+)
+"""Keeps what is written on the drawings, and where."""
+
+
+def test_names_in_the_body_plan_belong_to_one_line(open_page: Open, bulk_carrier: ah.Hull) -> None:
+    """Each family is named; none stands over the centre plane, where aft and fore body meet."""
+    hand = open_page(bulk_carrier.snapshot(), before=WRITTEN)
+    hand.page.evaluate("window.written = []")
+    hand.ask("p => p.store.changed('hull')")
+    hand.settled()
+    written = [each[1:] for each in hand.page.evaluate("window.written") if "body" in each[0]]
+    assert {"ST", "WL", "BTK", "DWL", "BL"} <= {text for text, *_ in written}
+    middle, deck = hand.ask(
+        "p => { const v = p.views.body, b = v.box(); return v.at(0, 0, b.z1, 1); }"
+    )
+    low = hand.ask("p => p.views.body.at(0, 0, 0, 1)[1]")
+    over = [text for text, x, y, w in written if y < low and x < middle < x + w]
+    assert over == []
+    # It has a bulb and a stem above it: its name is at the deck.
+    assert any(text == "20.04" and y < deck for text, _, y, _ in written)
+
+
+def test_one_view_alone_shows_the_place_that_was_looked_at(open_page: Open, hull: ah.Hull) -> None:
+    """What was zoomed stays in the middle at its scale, there and back, and in another window."""
+    hand = open_page(hull)
+    hand.near(POINT)
+    for act in ("1", "1", ""):
+        if act:
+            hand.page.locator(".view-body canvas").last.press(act)
+        else:
+            hand.page.set_viewport_size({"width": 1100, "height": 700})
+            hand.until("p => p.pending === 0 && p.views.body.upper.width < 641")
+        hand.settled()
+        place, scale = hand.spot(POINT), hand.ask("p => p.views.body.axis.s")
+        box = hand.page.locator(".view-body").bounding_box()
+        assert box is not None
+        assert abs(place[0] - box["x"] - box["width"] / 2) < 2.0
+        assert abs(place[1] - box["y"] - box["height"] / 2) < 2.0
+        assert abs(scale - 400.0) < 1e-6

@@ -111,6 +111,7 @@ HULL: dict[str, Given] = {
     "apply": {"name": "a", "edits": []},
     "undo": {"n": 0, "author": None},
     "snapshot": {},
+    "design": {},
     "redo": {"n": 0},
     "find": {"address": POINT},
     "why": {"thing": POINT, "step": None, "least": 1e-4},
@@ -1069,11 +1070,11 @@ def test_every_public_name_is_tried() -> None:
         lambda hull: hull.resistance([10.0], c_stern="10"),
         lambda hull: hull.edit("a").move("ST 5 x WL 2.5", y="4"),
         lambda _: pair(("10", 3.0), "radius", positive=True),
-        lambda _: ah.read("offsets.csv", length="45"),
+        lambda _: ah.read("offsets.csv", length=cast("float", "45")),
     ],
     ids=["one", "some", "of numpy", "a field", "a coordinate", "a pair", "an import"],
 )
 def test_a_text_is_no_number_anywhere(hull: ah.Hull, given: Callable[[Any], Any]) -> None:
     """One mistake has one answer: "3,5" and "5 m" would have to be guessed."""
-    with pytest.raises(ah.errors.BadInputError, match=r"text.*give numbers, without quotes"):
+    with pytest.raises(ah.errors.BadInputError, match="give numbers, not text: without quotes"):
         given(hull)

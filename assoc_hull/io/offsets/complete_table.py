@@ -574,30 +574,64 @@ def net_from_table(
         completion = _completion(at_full_size(table))
         state, report = adopt_completed(table, completion, ship, tolerances, straight=straight)
         # Of the shipped Series 60 the ends are explained where she is made.
-        beyond = _drawn_ends(table, at_full_size(table), completion) if straight else ()
+        stern, stem = completion.stern, completion.stem
+        beyond = _drawn_ends(table, at_full_size(table), stern, stem) if straight else ()
         return state, attrs.evolve(report, notes=(*beyond, *report.notes))
     except (BadInputError, CoincidentPointsError, TooFewPointsError) as error:
         # Too few: as of a counter that reaches the deck alone at her last station.
-        state, report = net_of_lines(table, ship, tolerances)
-        drawn = "profile" in {str(name) for name in state.lines.name.data}
-        left = "ends and flats" if drawn else "profile, ends and flats"
+        ends = _known_ends(table)
+        state, report = net_of_lines(table, ship, tolerances, ends)
+        profile = _profile_of(state)
+        left = "flats" if profile is not None else "profile, ends and flats"
         note = f"{left} are left open: {_in_its_size(table, error)}"
-        return state, attrs.evolve(report, notes=(note, *report.notes, *_coarse_keel(table)))
+        about = list[str]()
+        if profile is not None:
+            about += [] if ends is None else _drawn_ends(table, table, *ends, profile)
+            about += [note, *_open_ends(table, profile)]
+        notes = (*(about or (note,)), *report.notes, *_coarse_keel(table))
+        return state, attrs.evolve(report, notes=notes)
 
 
-def _drawn_ends(table: OffsetTable, full: OffsetTable, completion: Completion) -> Iterator[str]:
+def _profile_of(state: HullState) -> FloatArray | None:
+    """Give the points of the profile, (n, 3), m, from aft; None where there is none."""
+    for line in state.live("lines").tolist():
+        if state.lines.name[line] == "profile":
+            return state.spline(state.lines.curves[line][0]).xyz
+    return None
+
+
+def _open_ends(table: OffsetTable, profile: FloatArray) -> Iterator[str]:
+    """Tell where the profile stops below the deck, and which row of the table would close it."""
+    known = np.full(1, table.z[-1]) if table.deck_height is None else table.deck_height
+    known = known[np.isfinite(known)]
+    for name, place, deck, way in (
+        ("stern", profile[0], known[0], "aft"), ("stem", profile[-1], known[-1], "forward"),
+    ):  # fmt: skip
+        if place[2] < deck - _UPRIGHT:
+            yield (
+                f"the {name} is open from x = {place[0]:.6g} m, z = {place[2]:.6g} m up to the "
+                f"deck at {deck:.6g} m: give one more station {way}, where the {name} meets the "
+                f"deck, with keel {deck:.6g} and blank half-breadths; or a row of zeros where it "
+                "is upright"
+            )
+
+
+def _drawn_ends(
+    table: OffsetTable, full: OffsetTable, stern: FloatArray, stem: FloatArray,
+    profile: FloatArray | None = None,
+) -> Iterator[str]:  # fmt: skip
     """Tell how far waterlines were drawn beyond the last stations that have breadth there.
 
-    `full` is the table at the size of the completion.
+    `full` is the table at the size of the ends; a `profile` has to reach them.
     """
     ends = (
-        ("stern", 0, full.x[0] - completion.stern, "abaft", "aft"),
-        ("stem", -1, completion.stem - full.x[-1], "forward of", "forward"),
+        ("stern", 0, full.x[0] - stern, "abaft", "aft"),
+        ("stem", -1, stem - full.x[-1], "forward of", "forward"),
     )
     for name, row, beyond, way, side in ends:
         over = np.where(full.half_breadth[row] > 0.0, beyond, 0.0)
         most = int(np.nanargmax(over))
-        if not over[most] > _UPRIGHT:
+        if not over[most] > _UPRIGHT or not _reaches(profile, row, full, float(over[most])):
             continue
         part = float(over[most]) / full.length
         number = "first" if row == 0 else "last"
@@ -608,6 +642,14 @@ def _drawn_ends(table: OffsetTable, full: OffsetTable, completion: Completion) -
             f"{part * table.length:.4g} m ({part:.2g} Lpp) {way} it, at z = {table.z[most]:.4g} m; "
             f"to choose their ends give one more station {side} with 0 where they end{other}"
         )
+
+
+def _reaches(profile: FloatArray | None, row: int, full: OffsetTable, over: float) -> bool:
+    """Tell whether a profile (n, 3) goes so far (m) beyond the last station; that of rules does."""
+    if profile is None:
+        return True
+    beyond = float(full.x[0] - profile[0, 0] if row == 0 else profile[-1, 0] - full.x[-1])
+    return abs(beyond - over) < 1e-6 * full.length
 
 
 _STEEP = 0.3
@@ -642,6 +684,16 @@ def _in_its_size(
     except BadInputError as own:
         return f"{own.what}; {own.remedy}"
     return f"{error.what}; {error.remedy}" if isinstance(error, BadInputError) else str(error)
+
+
+def _known_ends(table: OffsetTable) -> tuple[FloatArray, FloatArray] | None:
+    """Give where waterlines end, None where the table has no heights of the keel, or tells none."""
+    if table.keel is None:
+        return None
+    try:
+        return end_contours(table)
+    except BadInputError:
+        return None
 
 
 def _completion(table: OffsetTable) -> Completion:

@@ -446,8 +446,9 @@ def net_of_lines(
     table: OffsetTable,
     particulars: Particulars | None = None,
     tolerances: Tolerances | None = None,
+    ends: tuple[FloatArray, FloatArray] | None = None,
 ) -> tuple[HullState, AdoptionReport]:
-    """Adopt the lines of a table; profile, ends and flats are left open.
+    """Adopt the lines of a table; flats are left open, and what `lines_of_table` does not close.
 
     Raises
     ------
@@ -455,22 +456,25 @@ def net_of_lines(
         A table whose lines do not make a net.
     """
     factor = length_factor(table.length)
-    lines = lines_of_table(table)
+    lines = lines_of_table(table, ends)
     groups = {line.group for line in lines}
     links = [each for each in ASSOCIATIONS if {each.a, each.b} <= groups]
     ship = particulars or particulars_of_table(table)
     return adopt(lines, ship, links, tolerances or Tolerances().scaled(factor))
 
 
-def lines_of_table(table: OffsetTable) -> list[LineSource]:
+def lines_of_table(
+    table: OffsetTable, ends: tuple[FloatArray, FloatArray] | None = None
+) -> list[LineSource]:
     """Give sections, waterlines, the deck edge and, through heights of the keel, the profile.
 
     A blank between two numbers ends a curve; of zeros in a row those count that lie next to a
     half-breadth. Heights of buttocks are points of the sections. The deck edge is what the table
-    calls so, else its highest waterline.
+    calls so, else its highest waterline. `ends`: where waterlines end aft and forward, (w,) m each,
+    for a profile with a known keel that the last stations leave open.
     """
     factor = length_factor(table.length)
-    profile = _keel_profile(table)
+    profile = _keel_profile(table, ends)
     knuckles = knuckles_of_table(table)
     near = factor * _TOLERANCE
     found = [
@@ -489,7 +493,7 @@ def lines_of_table(table: OffsetTable) -> list[LineSource]:
     ]
     if profile is not None:
         found.append(profile)
-    for points in _deck(table):
+    for points in _deck(table, profile):
         level = float(points[0, 2]) if np.ptp(points[:, 2]) < factor * _SAME else None
         plane = None if level is None else ((0.0, 0.0, 1.0), level)
         found.append(
@@ -672,10 +676,10 @@ def _open_waterlines(
         points = np.column_stack([x, y, np.full(len(x), z)])
         first, last = np.searchsorted(table.x, x[[0, -1]]).tolist()
         # Blank at the next station: there the keel is higher, and the line ends between the two.
-        low = table.x[first - 1] if first else x[0]
-        high = table.x[last + 1] if last + 1 < len(table.x) else x[-1]
-        aft = ends[(ends > low) & (ends < x[0])] if y[0] > 0.0 else ends[:0]
-        fore = ends[(ends > x[-1]) & (ends < high)] if y[-1] > 0.0 else ends[:0]
+        low = table.x[first - 1] if first else -np.inf
+        high = table.x[last + 1] if last + 1 < len(table.x) else np.inf
+        aft = ends[(ends >= low) & (ends < x[0])] if y[0] > 0.0 else ends[:0]
+        fore = ends[(ends > x[-1]) & (ends <= high)] if y[-1] > 0.0 else ends[:0]
         if len(aft):
             points = np.vstack([[aft[-1], 0.0, z], points])
         if len(fore):
@@ -687,7 +691,10 @@ def _open_waterlines(
 def _crossings(profile: LineSource, z: float) -> FloatArray:
     """Give where the profile passes a level, (k,) m, ascending."""
     spline = loft(CurveData.single(profile.points, profile.kind.tolist()))
-    return np.sort(intersect_planes(spline, np.eye(3)[2], np.array([z])).xyz[:, 0])
+    met = intersect_planes(spline, np.eye(3)[2], np.array([z])).xyz[:, 0]
+    # Where it ends at the deck it only touches that level.
+    last = profile.points[[0, -1]]
+    return np.unique(np.concatenate([met, last[np.abs(last[:, 2] - z) < _SAME, 0]]))
 
 
 _TURN = 20.0
@@ -695,8 +702,45 @@ _TURN = 20.0
 smooth curve through heights so far apart would swing."""
 
 
-def _keel_profile(table: OffsetTable) -> LineSource | None:
-    """Give the profile through the heights of the keel; a plumb end runs up from it."""
+def _above_keel(
+    table: OffsetTable, keel: FloatArray, side: int, ends: tuple[FloatArray, FloatArray] | None
+) -> tuple[int, FloatArray, int | None]:
+    """Give how the profile goes on above an end of the keel, aft (side 0) or forward (-1).
+
+    That is up a post, where the half-breadths of a station are 0, and where the table has no
+    station beyond it and waterlines still have breadth along their `ends`, (w,) m. Gives the
+    station, the points (x, z), (n, 2), from the keel up, and which of them is a corner.
+    """
+    none = np.zeros((0, 2))
+    outer = int(np.flatnonzero(np.isfinite(keel))[side])
+    up = _post(table, outer, keel)
+    if up is not None:
+        return outer, np.column_stack([np.full(len(up), table.x[outer]), up]), None
+    wide = np.nan_to_num(table.half_breadth) > 0.0
+    i = int(np.flatnonzero(wide.any(axis=1))[side])
+    if table.keel is None or not np.isfinite(keel[i]):
+        return outer, none, None
+    first = int(np.flatnonzero(wide[i])[0])
+    zero = (table.half_breadth[i, :first] == 0.0) & (table.z[:first] > keel[i] + _SAME)
+    post = table.z[:first][zero]
+    beyond = keel[:i] if side == 0 else keel[i + 1 :]
+    beyond = beyond[np.isfinite(beyond)]
+    if len(post) and not (beyond >= post[-1] - _SAME).all():
+        return outer, none, None  # breadth is 0 there in the plane of a skeg, not at an end
+    points = np.column_stack([np.full(len(post), table.x[i]), post])
+    if i != (0, len(table.x) - 1)[side] or table.deck_height is not None or ends is None:
+        return i, points, len(post) - 1 if len(post) else None
+    contour = np.column_stack([ends[side], table.z])[first:]
+    out = (contour[:, 0] - table.x[i]) * (1.0 if side else -1.0)
+    if not (out > _SAME).all():
+        return i, points, None
+    return i, np.concatenate([points, contour]), len(post) - 1 if len(post) else None
+
+
+def _keel_profile(
+    table: OffsetTable, ends: tuple[FloatArray, FloatArray] | None = None
+) -> LineSource | None:
+    """Give the profile through the heights of the keel; posts run up from it, and `ends`."""
     keel = _level_keel(table) if table.keel is None else table.keel
     known = np.isfinite(keel)
     if known.sum() < 3:
@@ -705,15 +749,19 @@ def _keel_profile(table: OffsetTable) -> LineSource | None:
     turn = np.abs(np.diff(np.degrees(np.arctan2(np.diff(z), np.diff(x)))))
     kind = np.full(len(x), int(PointKind.SMOOTH))
     kind[1:-1][turn > _TURN] = int(PointKind.KNUCKLE)
-    places = np.flatnonzero(known)[[0, -1]].tolist()
-    for end, up in zip((0, len(x)), (_post(table, i, keel) for i in places), strict=True):
-        if up is not None:
-            # Aft the profile runs down the post, forward up.
-            up = up if end else up[::-1]
-            kind[-1 if end else 0] = int(PointKind.KNUCKLE)
-            at = len(x) if end else 0
-            x, z = np.insert(x, at, np.full(len(up), x[-1 if end else 0])), np.insert(z, at, up)
-            kind = np.insert(kind, len(kind) if end else 0, [int(PointKind.SMOOTH)] * len(up))
+    for side in (-1, 0):  # what is put in aft moves the places forward of it
+        at, points, corner = _above_keel(table, keel, side, ends)
+        if not len(points):
+            continue
+        # Aft the profile runs down the post, forward up.
+        points = points if side else points[::-1]
+        place = int(known[:at].sum()) + (1 if side else 0)
+        kind[place - 1 if side else place] = int(PointKind.KNUCKLE)
+        x, z = np.insert(x, place, points[:, 0]), np.insert(z, place, points[:, 1])
+        new = np.full(len(points), int(PointKind.SMOOTH))
+        if corner is not None:
+            new[corner if side else len(new) - 1 - corner] = int(PointKind.KNUCKLE)
+        kind = np.insert(kind, place, new)
     line = LineSource.make(
         "boundary", "profile", np.column_stack([x, np.zeros(len(x)), z]),
         plane=((0.0, 1.0, 0.0), 0.0), boundary=BoundaryKind.END, kind=kind.tolist(),
@@ -746,10 +794,10 @@ def _post(table: OffsetTable, i: int, keel: FloatArray) -> FloatArray | None:
     return above if len(above) else None
 
 
-def _deck(table: OffsetTable) -> Iterator[FloatArray]:
+def _deck(table: OffsetTable, profile: LineSource | None) -> Iterator[FloatArray]:
     """Give the deck edge: its own columns, else the highest waterline."""
     if table.deck_height is None or table.deck_half_breadth is None:
-        yield from _open_waterlines(table, len(table.z) - 1)
+        yield from _open_waterlines(table, len(table.z) - 1, profile)
         return
     known = np.isfinite(table.deck_height) & np.isfinite(table.deck_half_breadth)
     if known.sum() > 1:

@@ -1,5 +1,4 @@
-// The table of all actions: what they are called, by which keys, whether they can be done now. Buttons,
-// the palette and the sheet of keys read it. And the keys: actions, and arrows that nudge; a burst is one edit.
+// All actions: words, keys, whether they can be done now. And the keys.
 
 import {showChosen} from "./lists.js";
 import {passes, pin, remove} from "./point_acts.js";
@@ -162,8 +161,11 @@ export class Keys {
     }
     if (drawing && event.key === "Enter") return this.burst ? this.finish() : store.shaping ? page.shaper.finish() : void page.panel.proposal.apply();
     if (drawing && event.key === "Backspace" && store.shaping) return page.shaper.back();
-    if (!drawing && !key.startsWith("Ctrl") && key !== "/" && key !== "?" && key !== ":") return;
-    // A place that was clicked is taken back first; an edit that lies before it stays.
+    if (!drawing && !/^Ctrl|^[/?:]$/.test(key)) {
+      if (/\b[a-z]$/.test(key) && !(event.target instanceof HTMLSelectElement) && actionOf(page, key)) page.say("Letters act in the drawing: Esc leads there.");
+      return;
+    }
+    // A clicked place is taken back first.
     if (key === "Ctrl+z" && store.shaping?.places.length) {
       event.preventDefault();
       return page.shaper.back();
@@ -191,11 +193,11 @@ export class Keys {
       page.say("No point is inserted.");
     } else if (store.ghost || page.shower) page.dropGhost();
     else if (field) page.leaveField(field);
+    else if (at instanceof Element && at.closest("aside, .bar")) page.activeView().upper.focus({preventScroll: true});
     else if (store.marked) {
       store.marked = null;
       store.changed("overlay");
     }
-    else if (at instanceof Element && at.closest("aside, .bar")) page.activeView().upper.focus({preventScroll: true});
     else if (store.maximised) page.maximise(/** @type {import("./view.js").Kind} */ (store.maximised));
     else store.select(null, null);
   }

@@ -1,4 +1,4 @@
-// What panels that ask the server have in common: a number for the answer, words, a place for what fails.
+// What panels that ask the server have in common.
 
 /** @typedef {import("./page.js").Page} Page */
 

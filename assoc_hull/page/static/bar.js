@@ -1,5 +1,4 @@
-// The bar above: the ship, the tools, the switches; the sheet of all keys; and the palette, where all that
-// can be done is found by a few letters of its words, points and lines by name.
+// The bar above: the ship, tools, switches, keys; the palette finds actions, points and lines.
 
 import {ACTIONS, keyWords} from "./actions.js";
 

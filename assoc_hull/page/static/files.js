@@ -1,5 +1,4 @@
-// Files: those for other programs, which the server writes; those that are dropped on the page, a hull
-// that is shown beside and a picture to trace.
+// Files: those that the server writes, and those that are dropped: a hull beside, a picture to trace.
 
 import {Asker, button, paragraph} from "./asker.js";
 import {typedNumber} from "./units.js";
@@ -97,7 +96,7 @@ export class Beside {
     const found = await upload(file).catch(() => ({problem: "it could not be read, or the server did not answer: drop the file itself, or try again"}));
     if (number !== this.newest) return;
     this.form.replaceChildren(...this.page.store.beside ? [button("Take it away", () => this.clear())] : []);
-    if (found.problem) return this.#say(`${file.name}: ${found.problem}`);
+    if (found.problem) return this.#say(found.problem.includes(file.name) ? found.problem : `${file.name}: ${found.problem}`);
     const raw = atob(found.frame), bytes = Uint8Array.from(raw, (each) => each.charCodeAt(0)), {store} = this.page;
     store.beside = {lines: found.lines, frame: parseFrame(bytes.buffer)};
     store.changed("overlay");

@@ -93,7 +93,7 @@ export class Pointers {
     if (curve !== null) store.select(null, curve);
   }
 
-  /** The place in the plane of a line that is seen at a pixel; null where the view shows the plane as a line. @param {number} curve @param {number} x @param {number} y */
+  /** The place in the plane of a line at a pixel; null where the plane is seen as a line. @param {number} curve @param {number} x @param {number} y */
   #placeOn(curve, x, y) {
     const {view, store} = this, line = store.net?.lineOf(curve);
     if (!line || line.axis === null || line.offset === null || line.axis === view.a || line.axis === view.b) return null;

@@ -1,7 +1,5 @@
-// One gesture: a point is taken hold of, asked to be elsewhere, and let go. One `to` is in flight
-// at a time, and the newest wish replaces the one that waits.
-// Until the true answer comes, what follows is foreseen along the last true one, in proportion to the
-// amount, as long as its error, known from those so far, is less than half a pixel.
+// One gesture: a point is taken hold of, asked to be elsewhere, and let go. One `to` is in flight at a time.
+// Until the true answer comes, what follows is foreseen in proportion, while the error is less than half a pixel.
 
 /** @typedef {import("./store.js").Store} Store */
 /** @typedef {import("./store.js").Held} Held */

@@ -1,5 +1,4 @@
-// Cubic segments: places, tangents, movement; and curvature in the plane of a view: teeth, their scale,
-// and where the bend changes its side. It knows no hull and no view.
+// Cubic segments: places, tangents, movement; teeth of combs, inflections. It knows no hull and no view.
 
 /** @typedef {import("./wire.js").Curve} Curve */
 

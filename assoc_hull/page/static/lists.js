@@ -1,5 +1,4 @@
-// Lists to choose from: all lines by family, the points of the chosen line, what is wrong with the hull;
-// and the ways to what is chosen, named or found.
+// Lists of lines, points and faults; the ways to what is chosen, named or found.
 
 import {Asker, button, link, paragraph} from "./asker.js";
 
@@ -194,7 +193,7 @@ export function curveOf(page, name) {
   return [...page.store.net?.curves ?? []].find(([, each]) => each.name === name || each.line.name === name)?.[0] ?? null;
 }
 
-/** Leads to what a finding names: all views come to the place, near enough to see it, and it is marked. @param {Page} page @param {string} object @param {number[] | null} place @param {number | null} curve */
+/** Leads to what a finding names: all views come near to the place, which is marked. @param {Page} page @param {string} object @param {number[] | null} place @param {number | null} curve */
 export function goTo(page, object, place, curve) {
   const {store, root} = page, {net} = store, row = net?.find(object) ?? null, point = row === null ? undefined : net?.points.get(row);
   const at = place ?? (row === null ? undefined : store.placeOf(row)), on = curve ?? point?.a ?? curveOf(page, object);

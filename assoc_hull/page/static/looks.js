@@ -1,5 +1,4 @@
-// How the page looks: what the browser keeps of that for the next time, which is nothing of the hull;
-// colours; and the room that each view has.
+// How the page looks: what the browser keeps of that, colours, and the room of each view.
 
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {import("./store.js").Store} Store */
@@ -45,7 +44,7 @@ export function themeOf(wish) {
 
 const SHARE = 0.254, LEAST = 104; // of the height at most, px at least
 
-/** Gives the low views the height that the hull fills at the scale of its length; all of theirs where lengths are compressed. @param {Page} page */
+/** Gives the low views the height that the hull fills; all of theirs where lengths are compressed. @param {Page} page */
 export function layRows(page) {
   const {store, views} = page, box = views.profile.element.parentElement;
   if (!box || !store.net) return;

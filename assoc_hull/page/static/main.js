@@ -1,5 +1,4 @@
-// The page in a browser: the only module that knows the address, what is kept, and the socket to the
-// server, which is opened again when it breaks, sooner at first, then every 5 s.
+// The page in a browser: the address, what is kept, and the socket, which is opened again when it breaks.
 
 import {mount} from "./page.js";
 

@@ -1,7 +1,7 @@
-// What is drawn over the lines: points, what the hand holds, where it may go, how far the hull follows;
-// and names, stations above and below, waterlines at the left, none over another.
+// What is drawn over the lines: points, what the hand holds, how far the hull follows; and names.
 
 import {pathsOf} from "./view.js";
+import {signed} from "./units.js";
 import {ADOPTED, CROSSING, PLACED, SHARED, WATCHED} from "./net.js";
 
 /** @typedef {import("./view.js").View} View */
@@ -17,7 +17,7 @@ export function drawHandles(view, g, ink) {
   const shown = new Set(view.rows());
   const drawn = new Set(show.points || dense(view) ? shown : selection.curve === null ? [] : net.rowsOf.get(selection.curve) ?? []);
   for (const row of drawn) if (shown.has(row)) dot(view, g, ink, row, 3, false);
-  if (refusal) for (const row of refusal.named) if (shown.has(row) && row !== refusal.row) outline(view, g, ink, row);
+  if (refusal) for (const row of refusal.named) if (shown.has(row) && row !== refusal.row) ring(view, g, ink, row, true);
   if (hover.row !== null && shown.has(hover.row)) dot(view, g, ink, hover.row, 4.5, true);
   if (store.theirs && shown.has(store.theirs.row)) {
     const {author, row, frame} = store.theirs, place = frame?.places.get(row) ?? store.places.get(row);
@@ -41,13 +41,19 @@ function named(view, g, ink, place, author) {
   g.arc(x, y, 6, 0, 7);
   g.fillStyle = ink.water;
   g.fill();
+  beside(view, g, ink.paper, ink.water, author, x, y);
+}
+
+/** Words beside a point, within the picture. @param {View} view @param {CanvasRenderingContext2D} g @param {string} paper @param {string} colour @param {string} words @param {number} x @param {number} y */
+function beside(view, g, paper, colour, words, x, y) {
   g.font = "600 12px system-ui, sans-serif";
   g.textBaseline = "middle";
+  const w = g.measureText(words).width, left = x + 16 + w < view.width ? x + 16 : x - 16 - w, at = y < 46 ? y + 18 : y - 14;
   g.lineWidth = 4;
-  g.strokeStyle = ink.paper;
-  const left = x + 12 + g.measureText(author).width < view.width ? x + 12 : x - 12 - g.measureText(author).width;
-  g.strokeText(author, left, y - 12);
-  g.fillText(author, left, y - 12);
+  g.strokeStyle = paper;
+  g.strokeText(words, left, at);
+  g.fillStyle = colour;
+  g.fillText(words, left, at);
 }
 
 /** A place that a finding names. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {number[]} place */
@@ -88,26 +94,17 @@ function dense(view) {
   return area > 0 && Math.sqrt(view.width * view.height / area) > 4 * CLOSE;
 }
 
-/** Focus is seen in the drawing. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {number} row */
-function ring(view, g, ink, row) {
+/** Focus is seen in the drawing; what a refusal names has a square. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {number} row @param {boolean} [square] */
+function ring(view, g, ink, row, square) {
   const place = view.store.placeOf(row);
   if (!place) return;
   const [x, y] = view.atPlace(place);
   g.beginPath();
-  g.arc(x, y, 10, 0, 7);
+  if (square) g.rect(x - 7, y - 7, 14, 14);
+  else g.arc(x, y, 10, 0, 7);
   g.strokeStyle = ink.hot;
-  g.lineWidth = 1.2;
+  g.lineWidth = square ? 2 : 1.2;
   g.stroke();
-}
-
-/** @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {number} row */
-function outline(view, g, ink, row) {
-  const place = view.store.placeOf(row);
-  if (!place) return;
-  const [x, y] = view.atPlace(place);
-  g.strokeStyle = ink.hot;
-  g.lineWidth = 2;
-  g.strokeRect(x - 7, y - 7, 14, 14);
 }
 
 /** What sort of point it is, by its form; filled where the hand moves it, hollow where it is computed. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {number} row @param {number} r @param {boolean} strong */
@@ -170,15 +167,7 @@ function drawHeld(view, g, ink) {
   g.fill();
   g.stroke();
   if (held.amount === null) return;
-  g.font = "600 12px system-ui, sans-serif";
-  g.textBaseline = "middle";
-  const text = `${held.amount >= 0 ? "+" : "−"}${(1e3 * Math.abs(held.amount)).toFixed(1)} mm`, w = g.measureText(text).width;
-  const left = x + 16 + w < view.width ? x + 16 : x - 16 - w, at = y < 46 ? y + 18 : y - 14;
-  g.lineWidth = 4;
-  g.strokeStyle = ink.paper;
-  g.strokeText(text, left, at);
-  g.fillStyle = ink.hot;
-  g.fillText(text, left, at);
+  beside(view, g, ink.paper, ink.hot, signed(1e3 * held.amount, 1, "mm"), x, y);
 }
 
 /** @param {import("./store.js").Held} held @returns {number[][]} */
@@ -236,20 +225,17 @@ class Places {
     this.left = 0;
   }
 
-  /** Writes a label unless it would lie over another, or outside. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align @param {string} colour @param {boolean} [halo] */
-  put(text, x, y, align, colour, halo = false) {
+  /** Writes a label unless it would lie over another, or outside. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align @param {string} colour */
+  put(text, x, y, align, colour) {
     const {g, view} = this, w = g.measureText(text).width;
     const left = align === "center" ? x - w / 2 : align === "right" ? x - w : x;
     if (left < 2 || left + w > view.width - 2 || y < 30 || y > view.height - 6) return false;
     for (const [l, r, t] of this.taken) if (left < r + 4 && left + w > l - 4 && Math.abs(y - t) < HIGH) return false;
     this.taken.push([left, left + w, y]);
     g.textAlign = "left";
-    if (halo) {
-      g.strokeStyle = this.ink.paper;
-      g.lineWidth = 4;
-      g.lineJoin = "round";
-      g.strokeText(text, left, y);
-    }
+    // A line that shows through a point reads as a colon.
+    g.fillStyle = this.ink.paper;
+    g.fillRect(left - 1, y - 6, w + 2, HIGH);
     g.fillStyle = colour;
     g.fillText(text, left, y);
     return true;
@@ -269,9 +255,15 @@ export function drawLabels(view, g, ink) {
   const of = (/** @type {string} */ family) => net.lines.filter((line) => line.family === family && line.offset !== null && line.axis !== null);
   const left = places.left = Math.max(view.at(view.kind === "body" ? 0 : x0, y1, 0, -1)[0] - 8, 40);
   const foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
+  if (view.kind !== "half") {
+    places.put("DWL", left, view.at(0, 0, ship.draught, 1)[1], "right", ink.water);
+    places.put("BL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
+    column(places, "WL", of("waterlines").map((line) => ({name: short(line.name), y: view.at(0, 0, line.offset ?? 0, 1)[1]})));
+  }
   if (view.kind === "body") {
+    places.put("BTK", left, foot + 12, "right", ink.soft);
     const names = [...of("buttocks")].reverse();
-    for (const side of [-1, 1]) for (const line of names) places.put(short(line.name), view.at(0, line.offset ?? 0, 0, side)[0], foot + 12, "center", ink.soft, true);
+    for (const side of [-1, 1]) for (const line of names) places.put(short(line.name), view.at(0, line.offset ?? 0, 0, side)[0], foot + 12, "center", ink.soft);
     stationsAbove(view, places, ink);
     if (view.at(0, 0, z0, 1)[1] < view.height) for (const [text, side] of /** @type {[string, number][]} */ ([["aft", -1], ["fore", 1]])) places.put(text, view.at(0, y1 / 2, 0, side)[0], foot + 26, "center", ink.soft);
   } else {
@@ -283,22 +275,17 @@ export function drawLabels(view, g, ink) {
     for (const line of stations) places.put(short(line.name), view.at(line.offset ?? 0, 0, 0, 1)[0], foot + 12, "center", ink.soft);
   }
   if (view.kind === "half") {
-    places.put("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft, true);
+    places.put("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
     column(places, "BTK", of("buttocks").map((line) => ({name: short(line.name), y: view.at(0, line.offset ?? 0, 0, 1)[1]})));
     along(view, places, ink);
-  } else {
-    places.put("DWL", left, view.at(0, 0, ship.draught, 1)[1], "right", ink.water, true);
-    places.put("BL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft, true);
-    column(places, "WL", of("waterlines").map((line) => ({name: short(line.name), y: view.at(0, 0, line.offset ?? 0, 1)[1]})));
-    if (view.kind === "profile") along(view, places, ink);
-  }
+  } else if (view.kind === "profile") along(view, places, ink);
 }
 
 /** Names at the left, with their family above the highest. @param {Places} places @param {string} family @param {{name: string, y: number}[]} rows */
 function column(places, family, rows) {
   const {ink} = places;
-  const written = rows.filter(({name, y}) => places.put(name, places.left, y, "right", ink.soft, true)).map(({y}) => y);
-  if (written.length) places.put(family, places.left, Math.min(...written) - HIGH - 1, "right", ink.soft, true);
+  const written = rows.filter(({name, y}) => places.put(name, places.left, y, "right", ink.soft)).map(({y}) => y);
+  if (written.length) places.put(family, places.left, Math.min(...written) - HIGH - 1, "right", ink.soft);
 }
 
 /** @param {View} view @param {Places} places @param {Record<string, string>} ink */
@@ -307,14 +294,15 @@ function stationsAbove(view, places, ink) {
   if (!net) return;
   const found = [];
   for (const line of net.lines) {
-    const sides = line.family === "sections" ? view.sides(line) : null, c = curves.get(line.curves[line.curves.length - 1] ?? -1);
-    if (!sides || !c) continue;
-    const first = c.xyz[2] > c.xyz[3 * c.n - 1] ? 0 : 3 * (c.n - 1);
-    for (const side of sides) found.push({full: line.name, name: short(line.name), at: view.at(c.xyz[first], c.xyz[first + 1], c.xyz[first + 2], side)});
+    const sides = line.family === "sections" ? view.sides(line) : null;
+    // A line of several curves is named where it ends highest.
+    const ends = line.curves.flatMap((id) => { const c = curves.get(id); return c ? [c.xyz.subarray(0, 3), c.xyz.subarray(-3)] : []; }).sort((p, q) => q[2] - p[2]);
+    if (sides && ends.length) for (const side of sides) found.push({full: line.name, name: short(line.name), at: view.at(ends[0][0], ends[0][1], ends[0][2], side)});
   }
   // Whole stations first, so that halves give way.
   found.sort((p, q) => Number(!/^\d+$/.test(p.name)) - Number(!/^\d+$/.test(q.name)));
-  const written = new Set();
+  const written = new Set(), top = view.at(0, 0, view.box().z1, 1)[1];
+  if (top > 20) places.put("ST", Math.max(places.left - 38, 4), Math.max(top - 21, 30), "left", ink.sections);
   for (const {full, name, at: [x, y]} of found) {
     // One that ends outside the picture is named along itself.
     if (y < 20 || y > view.height) continue;
@@ -332,19 +320,22 @@ function stationsAbove(view, places, ink) {
 function along(view, places, ink, written = new Set(), least = LEAST_GAP) {
   const {net} = view.store, paths = pathsOf(view);
   if (!net) return;
-  /** @type {{name: string, colour: string, x: number, y: number, gap: number}[]} */
+  /** @type {{name: string, colour: string, x: number, y: number, gap: number, align: CanvasTextAlign}[]} */
   const spots = [];
   const from = Math.max(places.left, 0), to = view.width;
   for (let k = 1; k < COLUMNS; k++) {
-    const x = from + (to - from) * k / COLUMNS;
+    const x = from + (to - from) * k / COLUMNS, off = view.kind === "body" ? x - view.at(0, 0, 0, 1)[0] : Infinity;
+    // Over the centre plane it would name aft and fore body.
+    if (Math.abs(off) < 4) continue;
+    const align = Math.abs(off) > 20 ? "center" : off < 0 ? "right" : "left";
     const met = paths.flatMap(({id, path}) => crossings(path, x).map((y) => ({id, y}))).sort((p, q) => p.y - q.y);
     met.forEach(({id, y}, i) => {
       const line = net.lineOf(id), gap = Math.min(y - (met[i - 1]?.y ?? -Infinity), (met[i + 1]?.y ?? Infinity) - y);
-      if (line && line.family !== "boundary" && gap > least) spots.push({name: line.name, colour: ink[line.family] || ink.ink, x, y, gap: Math.min(gap, 40)});
+      if (line && line.family !== "boundary" && gap > least) spots.push({name: line.name, colour: ink[line.family] || ink.ink, x, y, align, gap: Math.min(gap, 40)});
     });
   }
-  for (const {name, colour, x, y} of spots.sort((p, q) => q.gap - p.gap)) {
-    if (!written.has(name) && places.put(short(name), x, y, "center", colour, true)) written.add(name);
+  for (const {name, colour, x, y, align} of spots.sort((p, q) => q.gap - p.gap)) {
+    if (!written.has(name) && places.put(short(name), x, y, align, colour)) written.add(name);
   }
 }
 

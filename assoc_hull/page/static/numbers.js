@@ -1,9 +1,9 @@
-// Hydrostatics with what they have changed since the page's server began, and the sectional areas.
+// Hydrostatics with their changes, and the sectional areas.
 
 import {Asker} from "./asker.js";
 import {signed} from "./units.js";
 
-const SVG = "http://www.w3.org/2000/svg", WIDE = 480, HIGH = 170;
+const SVG = "http://www.w3.org/2000/svg", WIDE = 480, HIGH = 190;
 /** @type {Record<string, string>} */
 const POWERS = {m2: "m²", m3: "m³", m4: "m⁴", "-": ""};
 /** @typedef {{name: string, unit: string, meaning: string, digits: number, value: number | null, change: number | null, error: number | null}} Value */
@@ -56,7 +56,7 @@ export class Numbers extends Asker {
   /** @param {[number[], number[]]} now @param {[number[], number[]]} then */
   #areas(now, then) {
     const [x, area] = now, x0 = Math.min(...x, ...then[0]), x1 = Math.max(...x, ...then[0]), most = Math.max(...area, ...then[1], 1e-9);
-    const px = (/** @type {number} */ at) => 6 + (WIDE - 12) * (at - x0) / (x1 - x0 || 1), py = (/** @type {number} */ a) => HIGH - 40 - (HIGH - 58) * a / most;
+    const px = (/** @type {number} */ at) => 6 + (WIDE - 12) * (at - x0) / (x1 - x0 || 1), py = (/** @type {number} */ a) => HIGH - 50 - (HIGH - 74) * a / most;
     const picture = draw("svg", {viewBox: `0 0 ${WIDE} ${HIGH}`, class: "areas", role: "img", "aria-label": `sectional areas, largest ${most.toFixed(1)} square metres`});
     const path = (/** @type {[number[], number[]]} */ [xs, as], /** @type {string} */ name) => picture.append(draw("polyline", {points: xs.map((each, i) => `${px(each).toFixed(1)},${py(as[i]).toFixed(1)}`).join(" "), class: name}));
     picture.append(draw("line", {x1: 6, x2: WIDE - 6, y1: py(0), y2: py(0), class: "axis"}));
@@ -71,9 +71,9 @@ export class Numbers extends Asker {
       text.textContent = words;
       picture.append(text);
     };
-    label(6, HIGH - 3, `x ${x0.toFixed(1)} m`, "start");
-    label(WIDE - 6, HIGH - 3, `${x1.toFixed(1)} m`, "end");
-    label(6, 12, `${most.toFixed(1)} m²`, "start");
+    label(6, HIGH - 4, `x ${x0.toFixed(1)} m`, "start");
+    label(WIDE - 6, HIGH - 4, `${x1.toFixed(1)} m`, "end");
+    label(6, 18, `${most.toFixed(1)} m²`, "start");
     picture.addEventListener("pointermove", (event) => {
       const box = picture.getBoundingClientRect(), at = x0 + (x1 - x0) * ((/** @type {PointerEvent} */ (event).clientX - box.left) / box.width * WIDE - 6) / (WIDE - 12), clamped = Math.min(Math.max(at, x0), x1);
       const a = between(now, clamped);

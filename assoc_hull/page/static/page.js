@@ -1,4 +1,4 @@
-// The page: its parts, what the server says, and what the actions do. Everything hangs on one root.
+// The page: its parts, what the server says, what actions do.
 
 import {ACTIONS, Keys, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
@@ -11,6 +11,7 @@ import {Shaper} from "./propose.js";
 import {Speaker, placeBubble} from "./said.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
+import {count} from "./units.js";
 import {paintHull, paintOverlay} from "./paint.js";
 import {makeBar, openPalette} from "./bar.js";
 import {choose, find, goTo, stepCurve, stepPoint} from "./lists.js";
@@ -121,7 +122,7 @@ export class Page {
       hand.done(message);
       for (const each of this.panel.askers) each.done(message);
       store.last = message;
-      this.say(`${message.name}: ${message.relofted} curves followed.`);
+      this.say(`${message.name}: ${count(message.relofted, "curve")} followed.`);
       store.changed("panel");
     } else if (message.t === "hold") {
       store.theirs = message.row === null ? null : {author: message.author, row: message.row, frame: null};
@@ -196,7 +197,7 @@ export class Page {
     this.store.changed("overlay", "panel");
   }
 
-  // ---- drawing: one frame at most is waited for, and none when nothing has changed
+  // ---- drawing: at most one frame waits
 
   /** @param {import("./store.js").Stale} what */
   #stale(what) {
@@ -215,6 +216,8 @@ export class Page {
     // One that is measured anew is fitted anew, if nobody has looked elsewhere.
     const other = Object.values(this.views).filter((view) => view.measure());
     for (const view of other) if (view.fitted) view.fit();
+    // The two low views share their lengths.
+    else view.settle(view.kind !== "half" || !this.views.profile.shown);
     for (const view of Object.values(this.views)) {
       if (!view.shown) continue;
       if (view.stale.hull) paintHull(view, this.ink);
@@ -399,7 +402,6 @@ export class Page {
     this.store.tab = kind;
     this.root.dataset.maximised = this.store.maximised ?? "";
     this.root.dataset.tab = kind;
-    for (const view of Object.values(this.views)) view.fitted = true;
     this.store.changed("hull", "overlay", "panel");
     if (!back) this.active = kind;
     // A drawing that is hidden cannot keep the focus, and the keys act where it is.

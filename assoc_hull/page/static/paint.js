@@ -1,4 +1,4 @@
-// What is drawn, and in which order: the hull below, what lives above.
+// What is drawn, in order: the hull below, what lives above.
 
 import {combScale, evaluate, inflections, middleMovement, normalMovement, teeth} from "./hermite.js";
 import {diamond, drawHandles, drawLabels} from "./marks.js";
@@ -33,10 +33,10 @@ export function paintHull(view, ink) {
       const c = curves.get(id);
       if (c) view.trace(g, c, line);
     }
-    const border = key === "boundary";
+    const border = key === "boundary", wire = view.kind === "wire", heavy = border || key === "flat";
     g.strokeStyle = ink[key === "flat" ? "boundary" : key] || ink.ink;
-    g.lineWidth = view.kind === "wire" ? (border ? 1.2 : 0.6) : border ? 1.7 : key === "flat" ? 1.2 : 1;
-    g.globalAlpha = view.kind === "wire" && !border ? 0.7 : 1;
+    g.lineWidth = border && !wire ? 1.7 : heavy ? 1.2 : wire ? 0.6 : 1;
+    g.globalAlpha = wire && !heavy ? 0.7 : 1;
     g.setLineDash(key === "flat" ? [8, 3, 2, 3] : key === "diagonals" ? [6, 2] : []);
     g.stroke();
   }

@@ -13,7 +13,7 @@ import {Proposal} from "./propose.js";
 import {Vary} from "./vary.js";
 import {CROSSING} from "./net.js";
 import {PointActs, roleChoice} from "./point_acts.js";
-import {millimetres, signed, typedNumber} from "./units.js";
+import {count, millimetres, signed, typedNumber} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
 
@@ -259,7 +259,7 @@ export class Panel {
       const {frame} = overlay;
       return this.#table(box, [
         ["asked", held?.amount == null ? "–" : millimetres(held.amount)],
-        ["follow", `${frame.curves.size} curves, ${frame.places.size} points`],
+        ["follow", `${count(frame.curves.size, "curve")}, ${count(frame.places.size, "point")}`],
         ["farthest", `${millimetres(frame.normal)} off the hull`],
         ["volume", `about ${signed(frame.volume, 2, "m³")}`],
         ["LCB", `about ${signed(frame.lcb, 4, "m")}`],
@@ -270,8 +270,8 @@ export class Panel {
     this.#table(box, [
       ["last", last.name],
       ...(last.author ? [/** @type {[string, string]} */ (["made by", last.author])] : []),
-      ["follow", `${last.relofted} curves`],
-      ["farthest", last.normal === null ? "–" : `${millimetres(last.normal)} off the hull`],
+      ["follow", count(last.relofted, "curve")],
+      ["farthest", last.normal === null ? "no point moves" : `${millimetres(last.normal)} off the hull`],
       ["inflections", last.inflections ? `${last.inflections} new` : "none new"],
       ...last.notes.slice(0, 4).map((/** @type {string} */ note) => /** @type {[string, string]} */ (["note", note])),
     ]);
@@ -282,7 +282,10 @@ export class Panel {
     field.setAttribute("aria-label", "name that your edits are signed with");
     field.value = page.options.author;
     field.maxLength = 80;
-    field.onchange = () => page.sign(field.value);
+    field.onchange = () => {
+      page.sign(field.value);
+      field.value = page.store.author;
+    };
     words.textContent = "Undo takes back what this name has signed.";
     this.parts["Signed as"].append(field, words);
   }

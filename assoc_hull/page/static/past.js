@@ -1,5 +1,4 @@
-// What was done: all steps with their authors, going to one, looking at it beside the present, naming it;
-// and why the chosen point or line moved last.
+// What was done: steps with their authors, going to one, comparing, naming; and why the chosen moved last.
 
 import {Asker, button, link, paragraph} from "./asker.js";
 import {millimetres, signed} from "./units.js";

@@ -1,5 +1,4 @@
-// What is done to the chosen point beside dragging it: how its line passes it, whose it is, that it goes,
-// and pulls by typed millimetres. What a line becomes is shown before it is made.
+// What is done to the chosen point beside dragging it: kind, role, pin, deletion, typed pulls.
 
 import {button, paragraph} from "./asker.js";
 import {ADOPTED, CROSSING, PLACED} from "./net.js";
@@ -79,7 +78,7 @@ export class PointActs {
       event.preventDefault();
       this.#pull();
     };
-    label.append("pull by, mm ", this.field);
+    label.append("pull outward, mm ", this.field);
     label.className = "row";
     this.way = paragraph("");
     this.element.append(label, this.way);

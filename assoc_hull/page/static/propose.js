@@ -1,5 +1,4 @@
-// What would be made, shown as a ghost before it is: pulls that are answered fairly, lines that are led,
-// and a line re-shaped through places that are clicked, each of which can be dragged.
+// What would be made, shown as a ghost before it is; and a line re-shaped through places that are clicked.
 
 import {Asker, button} from "./asker.js";
 import {farthestDrawn} from "./paint.js";
@@ -40,7 +39,7 @@ export class Proposal extends Asker {
 
   /** One that is a draft is not made: it waits for more of what is asked. @param {string} name @param {object[]} ops @param {boolean} [draft] */
   show(name, ops, draft = false) {
-    // Asked once more, as by Enter in the same field: it was seen, and is wanted.
+    // Asked once more: it was seen, and is wanted.
     if (this.ready && !draft && this.what && !this.what.draft && this.what.state === this.page.store.state && JSON.stringify(this.what.ops) === JSON.stringify(ops)) return void this.apply();
     this.askGhost({t: "preview", ops}, `${name}: looking what follows …${/"fair":true/.test(JSON.stringify(ops)) ? " A fair answer takes some seconds; Esc gives up." : ""}`);
     this.what = {name, ops, state: this.page.store.state, draft};
@@ -156,7 +155,7 @@ export class Shaper {
     return near < 0 ? shaping.places.length - 1 : near;
   }
 
-  /** On a line that crosses, where it is so near that it was meant: beside it would be two points in one place. @param {import("./view.js").View} view @param {number[]} place */
+  /** On a line that crosses, where so near: beside it would be two points in one place. @param {import("./view.js").View} view @param {number[]} place */
   #snap(view, place) {
     const {store} = this.page, curve = store.shaping?.curve ?? -1, axis = this.#along(curve), reach = SNAP / (axis === view.b ? view.sy : view.axis.s);
     let best = null, least = reach;

@@ -1,5 +1,4 @@
-// What is said: a refusal beside its point, on the free side; and in live regions, at most once a second while
-// something is dragged, refusals at once.
+// What is said: a refusal beside its point; in live regions, once a second at most.
 
 import {signed} from "./units.js";
 

@@ -2,6 +2,8 @@
 
 /** What was typed, with a point or a comma; NaN where it is no number. @param {HTMLInputElement} field */
 export const typedNumber = ({value}) => Number(value.replace(",", ".").replace("−", "-").trim() || NaN);
+/** @param {number} n @param {string} one */
+export const count = (n, one) => `${n} ${one}${n === 1 ? "" : "s"}`;
 /** @param {number} metres */
 export const millimetres = (metres) => `${metres < 0 ? "−" : ""}${(1e3 * Math.abs(metres)).toFixed(1)} mm`;
 /** @param {number} value @param {number} digits @param {string} unit */

@@ -1,4 +1,4 @@
-// Named parameters of the hull: a wanted value is shown as a ghost, then made as one edit.
+// Named parameters: a wanted value is shown as a ghost, then made.
 
 import {Asker, button, paragraph} from "./asker.js";
 import {costWords} from "./propose.js";
@@ -92,7 +92,7 @@ export class Vary extends Asker {
     if (this.asked !== this.ghost) {
       const name = this.choice.value;
       this.found = message.value.filter((/** @type {Parameter} */ each) => each.value !== null && each.reason === null);
-      this.choice.replaceChildren(...this.found.map((each) => new Option(`${each.name}${each.unit === "-" ? "" : `, ${each.unit}`}`, each.name)));
+      this.choice.replaceChildren(...this.found.map((each) => new Option(`${each.name.replace(/_deg$/, "").replaceAll("_", " ")}${each.unit === "-" ? "" : `, ${each.unit}`}`, each.name)));
       if (this.found.some((each) => each.name === name)) this.choice.value = name;
       this.form.hidden = false;
       this.#choose();

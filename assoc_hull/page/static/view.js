@@ -1,4 +1,4 @@
-// One view: its two canvases, what it shows of the hull, where things lie on the screen. What is under the pointer.
+// One view: its two canvases, what it shows, where things lie on the screen, what is under the pointer.
 
 import {bezier} from "./hermite.js";
 
@@ -12,7 +12,7 @@ import {bezier} from "./hermite.js";
 export const TITLES = {body: "Body plan", profile: "Profile", half: "Half-breadth plan", wire: "Wire"};
 const OWN = {body: ["sections", "frames"], profile: ["buttocks"], half: ["waterlines", "diagonals"], wire: []};
 const PLANE = {body: [1, 2], profile: [0, 2], half: [0, 1], wire: [0, 2]};
-const MARGINS = {body: [46, 40, 16, 36], profile: [46, 34, 16, 34], half: [46, 34, 16, 34], wire: [20, 30, 20, 20]};
+const MARGINS = {body: [46, 54, 16, 36], profile: [46, 38, 16, 34], half: [46, 38, 16, 34], wire: [20, 30, 20, 20]};
 const FLAT = 1e-6;
 
 export class View {
@@ -30,6 +30,8 @@ export class View {
     this.yaw = -0.62;
     this.pitch = 0.42;
     this.width = this.height = 0;
+    /** The last size that was seen. */
+    this.set = [0, 0];
     this.fitted = true;
     this.stale = {hull: true, overlay: true};
     this.element = document.createElement("section");
@@ -86,6 +88,15 @@ export class View {
     }
     this.touch();
     return true;
+  }
+
+  /** What was in the middle stays there. @param {boolean} across */
+  settle(across) {
+    if (!this.shown) return;
+    const [w, h] = this.set;
+    if (w && across) this.axis.o += (this.width - w) / 2;
+    if (h) this.oy += (this.height - h) / 2;
+    this.set = [this.width, this.height];
   }
 
   touch() {
@@ -211,6 +222,7 @@ export class View {
   /** Shows all of the hull; views that share an axis agree on it. */
   fit() {
     if (!this.shown || !this.store.curves.size) return;
+    for (const view of this.partner ? [this, this.partner] : [this]) if (view.shown) view.set = [view.width, view.height];
     const both = (this.partner ? [this, this.partner] : [this]).filter((view) => view.shown);
     const rooms = both.map((view) => view.room()), squeeze = this.kind === "wire" || this.kind === "body" ? 1 : this.store.squeeze;
     this.axis.s = Math.min(...rooms.map((room) => Math.min(room.across, room.up)));

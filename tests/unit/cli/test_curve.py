@@ -78,7 +78,7 @@ def test_a_violated_condition_is_a_finding(capsys: pytest.CaptureFixture[str]) -
         ('{"vertices": 1, "vertices": 2}', [], "given twice"),
         ('{"vertices": [[0, 0]]}', [], "seven finite places"),
         ('{"parameters": 3}', [], "no JSON object"),
-        ('{"parameters": {"start_x": "a"}}', [], "start_x is the text 'a'"),
+        ('{"parameters": {"start_x": "a"}}', [], "start_x is 'a'"),
     ],
 )
 def test_what_cannot_be_used(

@@ -161,3 +161,22 @@ def test_bad_requests_are_told_in_one_line(
     assert says in error
     assert len(error.splitlines()) == 1
     assert hull.read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--to", "cb=0.5"], "unrecognized arguments: --to cb=0.5; did you mean"),
+        (["--sett", "breadth=11"], "did you mean '--set'"),
+        (["Cb=0.5"], "ask for reach={'cb': ...} with free=[...] (--reach cb=... --free ...)"),
+        (["breath=11"], "the nearest names are 'breadth'"),
+    ],
+)
+def test_an_option_or_a_value_that_is_not_known_is_not_taken_for_another(
+    words: list[str], told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """`--to` was taken for the beginning of `--tolerance`."""
+    path = tmp_path / "ship.hull"
+    ah.examples.wigley(stations=5, waterlines=4).save(path)
+    assert main(["vary", str(path), *words]) == 2
+    assert told in capsys.readouterr().err

@@ -29,7 +29,7 @@ from assoc_hull.variation.parameters.parameter_fields import aft_shift_field
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import parent_of
 from assoc_hull.variation.parameters.value_limits import hull_box, present_values
-from assoc_hull.variation.request import TOLERANCE, VariationRequest
+from assoc_hull.variation.request import TOLERANCE
 from tests.conftest import Shipped
 from tests.long_forms import long_form
 
@@ -361,12 +361,6 @@ def test_a_plane_that_comes_to_touch_the_hull_is_told_by_its_line(shipped: Shipp
     with pytest.raises(BadInputError, match=says):
         hull.vary(set={"bulb_half_breadth": 2.0})
     assert hull.vary(set={"bulb_half_breadth": 2.05}).report.edit.changed
-
-
-def test_an_output_that_is_set_is_told_to_be_reached() -> None:
-    """A designer asks for a block coefficient as for a breadth."""
-    with pytest.raises(UnknownNameError, match=r"it is an output: give reach=.*free="):
-        VariationRequest.of({"breadth": 10.0, "cb": 0.7})
 
 
 def test_why_a_parameter_cannot_be_varied_is_never_empty() -> None:

@@ -152,3 +152,52 @@ def test_a_short_hull_has_its_deck_edge_in_its_plane(tmp_path: Path) -> None:
     path.write_text(fishing_vessel(1.0, "0", 60.0, 5.43))
     _, report = import_hull(path, ImportOptions(length=60.0, draught=3.2, accept=True))
     assert not [each for each in report.verdict.faults if each.kind == "off plane"]
+
+
+def keeled(*, sheer: bool = False, last: str = "") -> str:
+    """A trawler of 45 m with a column of the keel: a sternpost, and a stem raked to the deck."""
+    heights = np.array([0.5, 1.0, 2.0, 3.0, 4.0, 5.5])
+    rows = ["station,x_m,keel," + ",".join(f"wl_{z:g}" for z in heights) + ",sheer,b_deck" * sheer]
+    for i, x in enumerate([0.0, 4.5, 9.0, 13.5, 18.0, 22.5, 27.0, 31.5, 36.0, 40.5, 43.0]):
+        keel = max(0.0, 0.5 * (x - 38.0))
+        along = np.clip(np.minimum((x + 1.0) / 16.0, (47.0 - x) / 18.0), 0.0, 1.0)
+        y = (
+            4.6
+            * (1.0 - (1.0 - along) ** 2)
+            * (1.0 - np.clip(1.0 - (heights - keel) / 3.5, 0, 1) ** 2)
+        )
+        y = np.where((x == 0.0) & (heights < 2.5), 0.0, y)
+        cells = [f"{b:.3f}" if z >= keel else "" for z, b in zip(heights, y, strict=True)]
+        edge = [f"{5.6 + 0.0005 * (x - 22.5) ** 2:.3f}", f"{y[-1] + 0.02:.3f}"] * sheer
+        rows.append(",".join([f"{i}", f"{x:g}", f"{keel:.3f}", *cells, *edge]))
+    return "# offsets in m, station 0 = AP\n" + "\n".join([*rows, last]) + "\n"
+
+
+def test_a_column_of_the_keel_closes_stem_and_stern(tmp_path: Path) -> None:
+    """Up the sternpost and out to where waterlines end: nothing of the net is open."""
+    path = tmp_path / "trawler.csv"
+    path.write_text(keeled())
+    state, report = import_hull(path, ImportOptions(length=45.0, draught=3.6, base=0.0))
+    assert report.verdict.faults == ()
+    assert not [each for each in report.verdict.suspicions if each.kind == "open net"]
+    told = [note for note in report.adoption.notes if "waterlines are drawn on" in note]
+    assert ["stern" in told[0], "stem" in told[1]] == [True, True]
+    (line,) = [i for i in state.live("lines").tolist() if state.lines.name[i] == "profile"]
+    profile = state.spline(state.lines.curves[line][0]).xyz
+    post = profile[(profile[:, 0] == 0.0) & (profile[:, 2] <= 2.0)]
+    assert sorted(post[:, 2].tolist())[:: len(post) - 1] == [0.0, 2.0]
+    assert profile[[0, -1], 2].tolist() == pytest.approx([5.5, 5.5])
+
+
+def test_an_end_that_stays_open_says_which_row_closes_it(tmp_path: Path) -> None:
+    """A sheer tells no ends of waterlines; a station at the deck, as the note says, closes one."""
+    path = tmp_path / "trawler.csv"
+    last = ""
+    for open_ends in (["stern", "stem"], ["stern"]):
+        path.write_text(keeled(sheer=True, last=last))
+        options = ImportOptions(length=45.0, draught=3.6, base=0.0, accept=True)
+        notes = import_hull(path, options)[1].adoption.notes
+        told = [note for note in notes if " is open from x = " in note]
+        assert [note.split()[1] for note in told] == open_ends
+        assert "give one more station" in told[0]
+        last = "11,47,5.9,,,,,,,5.9,0"
