@@ -16,7 +16,7 @@ import warnings
 from collections.abc import Sequence
 
 from assoc_hull.cli.commands import make_parser
-from assoc_hull.cli.problems import explain
+from assoc_hull.cli.problems import explain, in_shell
 from assoc_hull.errors import NotSoundError
 
 __all__ = ["arranged", "main"]
@@ -75,7 +75,12 @@ def _run(argv: Sequence[str] | None) -> int:
         return int(done.code or 0)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the one line on standard error says what is wrong
-        code: int = arguments.run(arguments)
+        try:
+            code: int = arguments.run(arguments)
+        except (NotSoundError, BrokenPipeError):
+            raise
+        except Exception as error:  # a traceback is of no use to a designer
+            return _fail(in_shell(explain(error), vars(arguments)), _BAD)
     return code
 
 
@@ -91,6 +96,8 @@ def _options_last(words: list[str]) -> list[str]:
     """Put options of an edit behind its values, between which they may be typed."""
     if words[:1] == ["vary"]:
         return _with_set(words)
+    if words[:1] == ["report"]:
+        return _out_second(words)
     if words[:1] != ["edit"] or "--" in words:
         return words
     if any(word.startswith("--") for word in words):
@@ -109,6 +116,17 @@ def _options_last(words: list[str]) -> list[str]:
         if word == "-o" or name:
             options += [each for each in [next(rest, None)] if each is not None]
     return [*values, *options]
+
+
+def _out_second(words: list[str]) -> list[str]:
+    """Let the file of a report stand behind `-o`, as those of other commands do."""
+    for i, word in enumerate(words[:-1]):
+        if word in ("-o", "--out"):
+            rest = [*words[:i], *words[i + 2 :]]
+            # Behind the hull, where that is the first word: an option may take several values.
+            place = 2 if rest[1:] and not rest[1].startswith("-") else len(rest)
+            return [*rest[:place], words[i + 1], *rest[place:]]
+    return words
 
 
 def _with_set(words: list[str]) -> list[str]:

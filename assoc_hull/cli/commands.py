@@ -67,6 +67,19 @@ class _Parser(argparse.ArgumentParser):
         raise UsageError(f"{message}, in {self.prog}; see: {self.prog} --help")
 
 
+class _CommandParser(_Parser):
+    """Tells itself of arguments it does not know; the parser above would not name the command."""
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        found, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            remedy = "there is no such option"
+            if not any(word.startswith("-") for word in unknown):
+                remedy = "options stand behind all values"
+            self.error(f"unrecognized arguments: {' '.join(unknown)}; {remedy}")
+        return found, unknown
+
+
 class _MainParser(_Parser):
     """Its help lists the commands by what a person wants to do."""
 
@@ -109,7 +122,7 @@ def make_parser(words: Sequence[str] | None = None) -> argparse.ArgumentParser:
     parser = _MainParser(prog="assoc-hull", epilog=_EXAMPLES)
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands: argparse._SubParsersAction[argparse.ArgumentParser] = parser.add_subparsers(
-        metavar="COMMAND", required=True, parser_class=_Parser
+        metavar="COMMAND", required=True, parser_class=_CommandParser
     )
     for module, adder in dict.fromkeys((c.module, c.adder) for c in _chosen(words)):
         getattr(importlib.import_module(f"assoc_hull.cli.{module}"), adder)(commands)

@@ -580,6 +580,10 @@ def _go(arguments: argparse.Namespace) -> int:
 
 def _diff(arguments: argparse.Namespace) -> int:
     hull = _open(arguments)
+    for name in (arguments.before, arguments.after):
+        if name and name not in hull.labels and name.endswith(HULL_ENDINGS):
+            both = f"assoc-hull compare {arguments.hull} {name}"
+            raise BadInputError(f"{name} is a file, not a checkpoint", "in diff", f"say: {both}")
     with progress("comparing"):
         found = hull.diff(arguments.before, arguments.after)
     emit(arguments, {"diff": found}, str(found))

@@ -127,10 +127,15 @@ _MOST_JOINS = 20
 """So many joins are named."""
 
 
+_NAME = 60
+"""A text of more letters than this is parted at its blanks."""
+
+
 def wrap_text(title: str, names: Iterable[str], indent: str = "  ") -> str:
     """Write a title and names after it, on as many lines as they need."""
     pad = indent + " " * 13
-    text = ", ".join(name.replace(" ", "\xa0") for name in names)
+    # A name stays on one line; a sentence, as notes are, does not fit on one.
+    text = ", ".join(n.replace(" ", "\xa0") if len(n) <= _NAME else n for n in names)
     # A minus sign is no hyphen to part a line at.
     lines = textwrap.wrap(
         text, 96, initial_indent=f"{indent}{title:12} ", subsequent_indent=pad,

@@ -20,6 +20,7 @@ __all__ = [
     "check_other_target",
     "check_target",
     "explain",
+    "in_shell",
     "is_apart",
 ]
 
@@ -56,6 +57,43 @@ def explain(error: Exception) -> str:
     if os.environ.get(_DEBUG):
         traceback.print_exception(error)
     return re.sub(rf"\S{{{_WORD + 1},}}", _ends, _explained(error))
+
+
+def in_shell(text: str, options: Collection[str]) -> str:
+    """Write names of Python arguments in a message as options of the command.
+
+    Parameters
+    ----------
+    text : str
+        A message.
+    options : collection of str
+        The arguments of the command, as Python names.
+
+    Examples
+    --------
+    >>> from assoc_hull.cli.problems import in_shell
+    >>> in_shell("give length= (Lpp in m), or zero='ap' or 'fp'", ["length", "zero"])
+    'give --length (Lpp in m), or --zero ap or fp'
+    """
+
+    def write(found: re.Match[str]) -> str:
+        name, value = found["name"], found["value"] or ""
+        flag = "--" + name.replace("_", "-")
+        # Where a message has words for the shell, the unit may be another there.
+        if name not in options or flag in text:
+            return found[0]
+        if value.startswith(("[", "{")):
+            return f"{flag} {'NAME=VALUE' if value[0] == '{' else 'NAME'}"
+        return f"{flag} {value.replace(chr(39), '')}" if value else flag
+
+    return _KEYWORD.sub(write, text)
+
+
+_KEYWORD = re.compile(
+    r"\b(?P<name>[a-z]\w*)=(?:(?P<value>'[\w-]+'(?: or '[\w-]+')*|\[names\]|\{name: value\})"
+    r"|(?=[\s,;)]|$))"
+)
+"""An argument as messages of the library write it: bare, with words, names, or pairs."""
 
 
 def _ends(word: re.Match[str]) -> str:

@@ -45,7 +45,7 @@ def add_report(commands: Commands) -> None:
         assoc-hull report ship.hull shell.pdf --parts surface plates --butts 24:300:12""",
     )  # fmt: skip
     add_hull(parser)
-    parser.add_argument("out", metavar="OUT", type=Path, help="a .pdf or .xlsx file")
+    parser.add_argument("out", metavar="OUT", type=Path, help="a .pdf or .xlsx file; -o OUT too")
     parser.add_argument(
         "--parts", nargs="+", metavar="PART",
         help="some of lines, hydrostatics, bonjean, areas, form, stability, surface, plates, "

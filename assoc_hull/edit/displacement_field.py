@@ -522,7 +522,8 @@ def sub_step_count(state: HullState, shift: PointDisplacements) -> int:
         raise BadInputError(
             f"a field that moves a point by {largest:.4g} m",
             "in an edit",
-            f"move by less than {_STEPS * state.tolerances.substep:g} m at a time",
+            f"move by less than {_STEPS * state.tolerances.substep:g} m at a time; lengths "
+            "are in m, 50 mm is 0.05",
         )
     return steps
 

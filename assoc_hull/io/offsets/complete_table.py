@@ -494,13 +494,14 @@ def _refuse_rising(table: OffsetTable, stern: FloatArray, stem: FloatArray) -> N
     if table.keel is None and not (np.nan_to_num(table.half_breadth[:, 0]) > 0.0).any():
         raise BadInputError(
             "no station has a breadth at the lowest level, so there is no flat bottom", "the table",
-            "leave the ends open",
+            "give the half-breadths of the flat bottom as waterline 0, or a column keel",
         )  # fmt: skip
     if table.keel is not None or abs(table.z[0]) > 1e-9 or not known:
         raise BadInputError(
             "the keel is not level or the table does not reach down to it",
             f"table {table.name!r}",
-            "draw the centre profile through the keel heights of the table instead",
+            "if she needs her stern, stem and transom closed, give her as lines with a profile, "
+            "as a mesh or as surfaces",
         )
 
 
@@ -681,8 +682,8 @@ def _in_its_size(
     try:
         _completion(table)
     except BadInputError as own:
-        return own.what
-    return error.what if isinstance(error, BadInputError) else str(error)
+        return f"{own.what}; {own.remedy}"
+    return f"{error.what}; {error.remedy}" if isinstance(error, BadInputError) else str(error)
 
 
 def _known_ends(table: OffsetTable) -> tuple[FloatArray, FloatArray] | None:

@@ -132,7 +132,7 @@ def adopt_completed(
     flats = _FlatBorder(completion.side, full)
     sources = _boundaries(full, completion, flats)
     wet = [i for i in range(len(full.x)) if (full.half_breadth[i, 1:] > 0.0).any()]
-    sources += [_closed_section(full, completion, flats, i) for i in wet]
+    sources += [_closed_section(full, completion, flats, i, factor) for i in wet]
     sources += [_closed_waterline(full, completion, flats, j) for j in range(1, len(full.z) - 1)]
     if straight:
         corners = knuckles_of_table(full)
@@ -361,14 +361,14 @@ def _line(
 
 
 def _closed_section(
-    table: OffsetTable, completion: Completion, flats: _FlatBorder, i: int
+    table: OffsetTable, completion: Completion, flats: _FlatBorder, i: int, factor: float
 ) -> LineSource:
     x = float(table.x[i])
     y, z = table.half_breadth[i], table.z
     wet = np.isfinite(y) & (y > 0.0)
     wet[0] = False
     name = f"ST {round(20.0 * x / table.length, 6):g}"
-    start = _foot(completion, x, float(z[wet][0]))
+    start = _foot(completion, x, float(z[wet][0]), factor)
     points = [np.array([x, b, h]) for b, h in zip(y[wet], z[wet], strict=True)]
     side = flats.meet(0, x)
     side = side[(side[:, 2] > 1e-6) & (side[:, 2] < z[-1] - 1e-6)]
@@ -385,10 +385,11 @@ def _closed_section(
     )  # fmt: skip
 
 
-def _foot(completion: Completion, x: float, below: float) -> FloatArray:
+def _foot(completion: Completion, x: float, below: float, factor: float) -> FloatArray:
     """Give the point of the profile at a station from which its section begins.
 
     That is the highest below its first offset: above a bulb or a rising keel there may be several.
+    `factor` brings lengths of a message back from full size.
     """
     p = completion.profile
     heights = [float(h) for h in p[np.abs(p[:, 0] - x) < 1e-6, 2] if h < below]
@@ -397,8 +398,8 @@ def _foot(completion: Completion, x: float, below: float) -> FloatArray:
     heights += [float(h) for h in met[:, 2] if h < below]
     if not heights:
         raise BadInputError(
-            f"the station at x = {x:.6g} m has its lowest half-breadth at {below:.6g} m, and no "
-            "keel, stem or stern lies below it",
+            f"the station at x = {factor * x:.6g} m has its lowest half-breadth at "
+            f"{factor * below:.6g} m, and no keel, stem or stern lies below it",
             "the table", "correct the half-breadths of that station, or give a column keel",
         )  # fmt: skip
     return np.array([x, 0.0, max(heights)])

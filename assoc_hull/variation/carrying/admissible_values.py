@@ -394,7 +394,7 @@ def _listed(name: str, found: Measures, room: AdmissibleValues) -> ListedParamet
         try:
             low, high = (each if math.isfinite(each) else None for each in room.interval(name))
         except BadInputError as error:
-            reason = f"cannot be varied: {error.what.partition(': ')[2]}"
+            reason = f"cannot be varied: {error.what.partition(': ')[2] or error.what}"
     return ListedParameter(
         name, entry.unit, entry.meaning, value, low, high, conflicts(name, room.layout), reason
     )

@@ -250,6 +250,12 @@ def shift_terminals(parent: Parent, name: str) -> tuple[float, float, float, flo
 
 def _bump(name: str, inner: float, outer: float, asked: float, layout: Layout) -> Share:
     """Shift between two terminals: the bump is full where its shape is."""
+    if inner == outer:  # a bottom that rises from the parallel body on has no run before it
+        raise BadInputError(
+            f"{name}: the bottom rises from the parallel body on, at x = {inner:.6g} m, and no "
+            "stretch lies between them to be shifted",
+            "in vary", "vary parallel_body_start or parallel_body_end",
+        )  # fmt: skip
     bump = Bump(inner, outer, 1.0, layout.shift)
     full = bump.top
     course = bump.scaled(asked / float(bump.at(np.array(full))))

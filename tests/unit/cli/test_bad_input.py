@@ -12,7 +12,9 @@ from typing import Any
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.cli import inspection, main
+from assoc_hull.cli import arranged, inspection, main
+from assoc_hull.cli.hull_words import wrap_text
+from assoc_hull.cli.problems import in_shell
 
 Edits = Callable[[object], Path]
 
@@ -33,7 +35,9 @@ def error_of(arguments: list[object], capsys: pytest.CaptureFixture[str], code: 
         ([], "COMMAND"),
         (["paint"], "'paint'"),
         (["info"], "HULL"),
-        (["info", "a", "b"], "unrecognized arguments: b"),
+        (["info", "a", "b"], "arguments: b; options stand behind all values, in assoc-hull info"),
+        (["vary", "a", "--dry-run"], "--dry-run; there is no such option, in assoc-hull vary"),
+        (["report", "none.hull", "-o", "a.gif"], "at a.gif; end the name in .pdf"),
         (["example", "titanic", "-o", "a.hull.json"], "'titanic'"),
         (["example", "wigley"], "-o"),
         (["example", "wigley", "-o", "a.csv"], ".hull.json"),
@@ -282,3 +286,44 @@ def test_an_output_that_is_full_is_one_line(hull: Path) -> None:
     assert run.returncode == 2
     assert run.stderr.count("\n") == 1
     assert "No space left" in run.stderr
+
+
+def test_arguments_of_the_library_are_told_as_options(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What a message says to give can be typed."""
+    table = tmp_path / "t.csv"
+    table.write_text("station,0,1,2\n0,0,0,1\n1,0,2,3\n2,1,2,3\n3,0,2,3\n4,0,0,1\n")
+    command: list[object] = ["import", table, "-o", tmp_path / "t.hull"]
+    assert "give --length (Lpp in m)" in error_of(command, capsys)
+    assert "give --station-zero ap or fp" in error_of([*command, "--length", "20"], capsys)
+
+
+@pytest.mark.parametrize(
+    ("text", "typed"),
+    [
+        ("give free=[names]", "give --free NAME"),
+        ("noise=0.001 is 1 mm; in the shell --noise 1", None),
+        ("with on_error='report' (--on-error report)", None),
+        ("give other=", None),
+    ],
+)
+def test_only_bare_arguments_of_the_command_are_rewritten(text: str, typed: str | None) -> None:
+    """What a message says of the shell itself, and arguments of no option, stay."""
+    assert in_shell(text, ["free", "noise", "on_error"]) == (typed or text)
+
+
+@pytest.mark.parametrize("option", ["-o", "--out"])
+def test_the_file_of_a_report_may_stand_behind_an_option(option: str) -> None:
+    """As of all other commands; an option with several values does not take it."""
+    rest = ["--parts", "lines", "form"]
+    want = ["report", "s.hull", "r.pdf", *rest]
+    assert arranged(["report", "s.hull", *rest, option, "r.pdf"]) == want
+    assert arranged(["report", option, "r.pdf", "s.hull", *rest]) == want
+
+
+def test_a_long_note_is_parted_between_words() -> None:
+    """Sentences are longer than a line; names stay whole."""
+    words = ["a sentence of many words that goes on " * 4, "WL 0.5"]
+    lines = wrap_text("notes", words).split()
+    assert lines == ["notes", *f"{words[0]}, WL 0.5".split()]

@@ -63,6 +63,10 @@ def test_undo_and_redo_go_to_and_fro(twice: Path, facts: Json) -> None:
         (["redo"], "there is nothing to redo"),
         (["go", "nowhere"], "there is no checkpoint or branch named 'nowhere'"),
         (["diff", "nowhere"], "there is no checkpoint or branch named 'nowhere'"),
+        (
+            ["diff", "b.hull"],
+            "b.hull is a file, not a checkpoint, in diff; say: assoc-hull compare",
+        ),
         (["undo", "--wait", "-1"], "'-1' is no time in seconds"),
     ],
 )

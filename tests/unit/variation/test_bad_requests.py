@@ -3,7 +3,7 @@
 import math
 import re
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
@@ -25,6 +25,7 @@ from assoc_hull.variation.certificate.fold_check import certify
 from assoc_hull.variation.fields.layers import FieldLayer
 from assoc_hull.variation.parameters.catalogue import NAMES
 from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.parameters.parameter_fields import aft_shift_field
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import parent_of
 from assoc_hull.variation.parameters.value_limits import hull_box, present_values
@@ -360,3 +361,17 @@ def test_a_plane_that_comes_to_touch_the_hull_is_told_by_its_line(shipped: Shipp
     with pytest.raises(BadInputError, match=says):
         hull.vary(set={"bulb_half_breadth": 2.0})
     assert hull.vary(set={"bulb_half_breadth": 2.05}).report.edit.changed
+
+
+def test_why_a_parameter_cannot_be_varied_is_never_empty() -> None:
+    """A bottom that rises from the parallel body on leaves no run to shift."""
+
+    class Rising:
+        def has(self, place: str) -> bool:
+            return place == "body start"
+
+        def at(self, place: str, _name: str) -> tuple[float]:
+            return ({"aft terminal": 20.0, "body start": 20.0}.get(place, 40.0),)
+
+    with pytest.raises(BadInputError, match=r"aft_shift: the bottom rises .* at x = 20 m"):
+        aft_shift_field(cast(Any, Rising()), 1.0, Layout())
