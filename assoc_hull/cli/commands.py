@@ -61,23 +61,10 @@ class _Parser(argparse.ArgumentParser):
         options = [each for action in self._actions for each in action.option_strings]
         near = difflib.get_close_matches(unknown[0], options, 3, 0.6)
         meant = " or ".join(f"'{each}'" for each in near)
-        return f"; did you mean {meant}?" if meant else f"; there is no option '{unknown[0]}'"
+        return f"; did you mean {meant}?" if meant else "; there is no such option"
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{message}, in {self.prog}; see: {self.prog} --help")
-
-
-class _CommandParser(_Parser):
-    """Tells itself of arguments it does not know; the parser above would not name the command."""
-
-    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        found, unknown = super().parse_known_args(args, namespace)
-        if unknown:
-            remedy = "there is no such option"
-            if not any(word.startswith("-") for word in unknown):
-                remedy = "options stand behind all values"
-            self.error(f"unrecognized arguments: {' '.join(unknown)}; {remedy}")
-        return found, unknown
 
 
 class _MainParser(_Parser):
@@ -122,7 +109,7 @@ def make_parser(words: Sequence[str] | None = None) -> argparse.ArgumentParser:
     parser = _MainParser(prog="assoc-hull", epilog=_EXAMPLES)
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands: argparse._SubParsersAction[argparse.ArgumentParser] = parser.add_subparsers(
-        metavar="COMMAND", required=True, parser_class=_CommandParser
+        metavar="COMMAND", required=True, parser_class=_Parser
     )
     for module, adder in dict.fromkeys((c.module, c.adder) for c in _chosen(words)):
         getattr(importlib.import_module(f"assoc_hull.cli.{module}"), adder)(commands)
