@@ -169,7 +169,7 @@ def test_the_width_of_a_gap_is_given(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert main(asked) == 2
     message = capsys.readouterr().err
     assert "do not chain: two ends 100 mm apart" in message
-    told = re.search(r"give join= of ([\d.]+) m", message)
+    told = re.search(r"give --join of ([\d.]+) m", message)
     assert told is not None
     assert main([*asked, "--join", told.group(1)]) == 0
     assert "join: ST 50: 100.0 mm at (50.000, " in capsys.readouterr().out
