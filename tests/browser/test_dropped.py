@@ -70,7 +70,7 @@ def test_garbage_that_is_dropped_is_told_in_a_sentence(
     hand, before = open_page(hull), hull.fingerprint
     drop(hand, name, bytes(range(256)))
     box = hand.page.locator("details:has(h2:text-is('Beside'))")
-    box.get_by_text(f"{name}: ").wait_for()
+    box.get_by_text(name).first.wait_for()
     assert "error of this program" not in box.inner_text()
     assert "/tmp" not in box.inner_text()
     assert hull.fingerprint == before
