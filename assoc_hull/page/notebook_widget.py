@@ -13,7 +13,7 @@ from assoc_hull.hull.hull import Hull
 from assoc_hull.model.objects import Point
 from assoc_hull.page.app import family_colours
 from assoc_hull.page.joined import joined_modules, scoped_styles
-from assoc_hull.page.widget_views import Views
+from assoc_hull.page.widget_views import WidgetViews
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -71,7 +71,7 @@ class HullWidget(anywidget.AnyWidget):
     def __init__(self, hull: Hull, *, height: int, author: str) -> None:
         super().__init__(_height=height, _author=author)
         self.hull = hull
-        self._views = Views(hull)
+        self._views = WidgetViews(hull)
         # A kernel that ends, and the collector, close what nobody closed.
         self._end = weakref.finalize(self, self._views.end)
         self._row: int | None = None

@@ -12,7 +12,7 @@ from assoc_hull.page.messages import Hello, parse
 from assoc_hull.page.session import Session
 from assoc_hull.page.wire import VERSION
 
-__all__ = ["SharedSession", "View", "Views"]
+__all__ = ["SharedSession", "WidgetView", "WidgetViews"]
 
 _SESSIONS: WeakKeyDictionary[Hull, SharedSession] = WeakKeyDictionary()
 
@@ -41,7 +41,7 @@ class SharedSession:
             self.session.close()
 
 
-class View:
+class WidgetView:
     """One place where a widget is shown; a `Client` of the session."""
 
     def __init__(
@@ -76,7 +76,7 @@ class View:
         self._session.leave(self)
 
 
-class Views:
+class WidgetViews:
     """The places where a widget is shown; its session runs while there is one.
 
     It knows nothing of the widget, so that the collector can take a widget that nobody closed.
@@ -85,7 +85,7 @@ class Views:
     def __init__(self, hull: Hull) -> None:
         self._hull = hull
         self._shared: SharedSession | None = None
-        self._views = dict[str, View]()
+        self._views = dict[str, WidgetView]()
 
     def take(
         self, name: str, given: object, send: Callable[[dict[str, object], list[bytes]], None]
@@ -95,7 +95,7 @@ class Views:
             self._shared = SharedSession.take(self._hull)
         view = self._views.get(name)
         if view is None:
-            view = self._views[name] = View(name, self._shared.session, send)
+            view = self._views[name] = WidgetView(name, self._shared.session, send)
         view.take(given)
 
     def drop(self, name: str) -> None:

@@ -15,11 +15,11 @@ import attrs
 
 from assoc_hull.analysis.resistance.holtrop_ship import NU, HoltropShip
 
-__all__ = ["TYPES", "ShipType", "nearest_type", "types_of", "warnings_of"]
+__all__ = ["TYPES", "SampledShips", "nearest_type", "types_of", "warnings_of"]
 
 
 @attrs.frozen
-class ShipType:
+class SampledShips:
     """Ships of one type in the sample.
 
     Attributes
@@ -55,12 +55,12 @@ class ShipType:
         return found
 
 
-TYPES: tuple[ShipType, ...] = (
-    ShipType("tankers and bulk carriers", 0.24, (0.73, 0.85), (5.1, 7.1), (2.4, 3.2)),
-    ShipType("trawlers, coasters and tugs", 0.38, (0.55, 0.65), (3.9, 6.3), (2.1, 3.0)),
-    ShipType("container ships and destroyers", 0.45, (0.55, 0.67), (6.0, 9.5), (3.0, 4.0)),
-    ShipType("cargo liners", 0.30, (0.56, 0.75), (5.3, 8.0), (2.4, 4.0)),
-    ShipType("ro-ro ships and car ferries", 0.35, (0.55, 0.67), (5.3, 8.0), (3.2, 4.0)),
+TYPES: tuple[SampledShips, ...] = (
+    SampledShips("tankers and bulk carriers", 0.24, (0.73, 0.85), (5.1, 7.1), (2.4, 3.2)),
+    SampledShips("trawlers, coasters and tugs", 0.38, (0.55, 0.65), (3.9, 6.3), (2.1, 3.0)),
+    SampledShips("container ships and destroyers", 0.45, (0.55, 0.67), (6.0, 9.5), (3.0, 4.0)),
+    SampledShips("cargo liners", 0.30, (0.56, 0.75), (5.3, 8.0), (2.4, 4.0)),
+    SampledShips("ro-ro ships and car ferries", 0.35, (0.55, 0.67), (5.3, 8.0), (3.2, 4.0)),
 )
 """The types of the sample."""
 
@@ -80,7 +80,7 @@ def types_of(ship: HoltropShip, froude: float) -> tuple[str, ...]:
     return tuple(each.name for each in TYPES if not each.beyond(ship, froude))
 
 
-def nearest_type(ship: HoltropShip, froude: float) -> ShipType:
+def nearest_type(ship: HoltropShip, froude: float) -> SampledShips:
     """Give the type to which a ship comes nearest: by all that she lies outside, of the limits."""
     return min(TYPES, key=lambda each: sum(far for _, far in each.beyond(ship, froude)))
 

@@ -24,7 +24,7 @@ from assoc_hull.geometry.patches.bernstein_polynomials import (
     multiply,
 )
 from assoc_hull.geometry.patches.bezier_patches import Patches
-from assoc_hull.geometry.patches.curvature_terms import Delta, Steps
+from assoc_hull.geometry.patches.curvature_terms import Delta, RoundingSteps
 
 __all__ = [
     "BoundedTerms",
@@ -86,7 +86,7 @@ class CountedPolynomial:
         return CountedPolynomial(multiply(self.b, other.b), amount, wide, steps, self.share)
 
 
-def rounding_margin(steps: Steps, least: float) -> float:
+def rounding_margin(steps: RoundingSteps, least: float) -> float:
     """Give the factor of a rounding bound: a little above the count, at least that given.
 
     Examples

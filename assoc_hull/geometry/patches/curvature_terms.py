@@ -42,7 +42,7 @@ from assoc_hull.geometry.patches.bezier_patches import Patches
 
 __all__ = [
     "Delta",
-    "Steps",
+    "RoundingSteps",
     "Terms",
     "amounts",
     "area_squared",
@@ -201,7 +201,7 @@ def mean_numerator(terms: Terms) -> FloatArray:
 
 
 @attrs.frozen
-class Steps:
+class RoundingSteps:
     """How many roundings lie one behind the other in a coefficient, at most.
 
     Attributes
@@ -215,14 +215,14 @@ class Steps:
     degrees: tuple[int, int]
     count: int
 
-    def times(self, other: Steps, sums: int = 0) -> Steps:
+    def times(self, other: RoundingSteps, sums: int = 0) -> RoundingSteps:
         """Give those of a product: both factors, weights, a sum of terms, and `sums` after it."""
         (m, n), (p, q) = self.degrees, other.degrees
         terms = (min(m, p) + 1) * (min(n, q) + 1)
-        return Steps((m + p, n + q), self.count + other.count + terms + 6 + sums)
+        return RoundingSteps((m + p, n + q), self.count + other.count + terms + 6 + sums)
 
 
-def steps(m: int, n: int) -> dict[str, Steps]:
+def steps(m: int, n: int) -> dict[str, RoundingSteps]:
     """Give the roundings of A, |S|**2 and B for patches of degrees m and n.
 
     Examples
@@ -231,10 +231,10 @@ def steps(m: int, n: int) -> dict[str, Steps]:
     >>> {name: each.count for name, each in steps(3, 3).items()}
     {'gauss': 153, 'area': 84, 'mean': 107}
     """
-    ru, rv = Steps((m - 1, n), 2), Steps((m, n - 1), 2)
+    ru, rv = RoundingSteps((m - 1, n), 2), RoundingSteps((m, n - 1), 2)
     s = ru.times(rv, 1)
-    ruu, ruv = Steps((max(m - 2, 0), n), 4), Steps((m - 1, n - 1), 4)
-    rvv = Steps((m, max(n - 2, 0)), 4)
+    ruu, ruv = RoundingSteps((max(m - 2, 0), n), 4), RoundingSteps((m - 1, n - 1), 4)
+    rvv = RoundingSteps((m, max(n - 2, 0)), 4)
     l, middle, right = s.times(ruu, 2), s.times(ruv, 2), s.times(rvv, 2)
     e, f, g = ru.times(ru, 2), ru.times(rv, 2), rv.times(rv, 2)
     gauss = max(l.times(right, 1), middle.times(middle, 1), key=_count)
@@ -242,5 +242,5 @@ def steps(m: int, n: int) -> dict[str, Steps]:
     return {"gauss": gauss, "area": s.times(s, 2), "mean": mean}
 
 
-def _count(steps: Steps) -> int:
+def _count(steps: RoundingSteps) -> int:
     return steps.count

@@ -14,7 +14,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, MissingExtraError
 from assoc_hull.page.messages import parse
-from assoc_hull.page.widget_views import SharedSession, View, Views
+from assoc_hull.page.widget_views import SharedSession, WidgetView, WidgetViews
 from assoc_hull.page.wire import VERSION
 
 POINT = "WL 2.5 x ST 7"
@@ -59,7 +59,7 @@ def hull() -> ah.Hull:
 def test_what_a_cell_does_is_shown_in_a_view(hull: ah.Hull) -> None:
     """The session looks for edits of others; nobody asks it to."""
     shared, told = SharedSession.take(hull), Told()
-    view = View("a", shared.session, told)
+    view = WidgetView("a", shared.session, told)
     view.take(hello())
     told.until(lambda each: each.has("state"))
     seen = told.frames
@@ -86,7 +86,7 @@ def test_widgets_of_one_hull_share_its_session_until_the_last_has_gone(hull: ah.
 def test_what_is_no_message_is_answered_by_a_sentence(hull: ah.Hull, given: object) -> None:
     """And the view goes on."""
     shared, told = SharedSession.take(hull), Told()
-    view = View("a", shared.session, told)
+    view = WidgetView("a", shared.session, told)
     view.take(given)
     assert [each["t"] for each in told.texts] == ["problem"]
     assert told.texts[0]["text"]
@@ -149,7 +149,7 @@ def page_threads() -> int:
 
 def test_the_session_of_views_lasts_as_long_as_a_place_shows_it(hull: ah.Hull) -> None:
     """No thread before the first message, none after the last place has gone, another one later."""
-    before, views, told = page_threads(), Views(hull), Told()
+    before, views, told = page_threads(), WidgetViews(hull), Told()
     assert page_threads() == before
     for _ in range(2):
         views.take("a", hello(), told)
@@ -185,7 +185,7 @@ def test_a_cell_and_a_view_sign_by_their_own_names(hull: ah.Hull) -> None:
     """Also where one waits for the other."""
     hull.author = "cell"
     shared, told = SharedSession.take(hull), Told()
-    view = View("a", shared.session, told)
+    view = WidgetView("a", shared.session, told)
     view.take(hello())
     told.until(lambda each: each.has("state"))
     ops = [{"op": "move", "point": "WL 4.16667 x ST 1", "y": 1.5}]
@@ -204,7 +204,7 @@ def test_a_cell_and_a_view_sign_by_their_own_names(hull: ah.Hull) -> None:
 def test_who_holds_a_point_is_told_that_a_cell_has_changed_the_hull(hull: ah.Hull) -> None:
     """The point is let go; the page goes on."""
     shared, told = SharedSession.take(hull), Told()
-    view, point = View("a", shared.session, told), hull.points["WL 4.16667 x ST 2"]
+    view, point = WidgetView("a", shared.session, told), hull.points["WL 4.16667 x ST 2"]
     view.take(hello())
     begin = {"t": "begin", "gesture": 1, "row": point.number, "how": "move", "radius": None}
     view.take(json.dumps(begin))
@@ -227,8 +227,8 @@ def test_a_view_that_cannot_be_told_does_not_silence_the_others(hull: ah.Hull) -
             raise RuntimeError("the kernel is going")
 
     shared, told = SharedSession.take(hull), Told()
-    View("a", shared.session, Broken()).take(hello())
-    view = View("b", shared.session, told)
+    WidgetView("a", shared.session, Broken()).take(hello())
+    view = WidgetView("b", shared.session, told)
     view.take(hello())
     told.until(lambda each: each.has("state"))
     view.take(json.dumps({"t": "check", "id": 7}))
