@@ -18,23 +18,36 @@ True
 from __future__ import annotations
 
 import gc
+from typing import ClassVar
+from weakref import WeakSet
 
 __all__ = ["PausedCollector", "freeze_loaded_objects"]
 
 
 class PausedCollector:
-    """Holds the collector off; may be entered again inside, and leaves it as it was."""
+    """Holds the collector off while any pause stands, and then leaves it as it was.
 
-    def __init__(self) -> None:
-        self._was: list[bool] = []
+    An interrupt may come at any line, also of a pause itself: what it leaves off is known to the
+    class, and the end of the next pause turns it on again.
+    """
+
+    # One that was broken off dies, and is out.
+    _standing: ClassVar[WeakSet[PausedCollector]] = WeakSet()
+    _off: ClassVar[bool] = False  # whether the collector was turned off here
 
     def __enter__(self) -> None:
-        self._was.append(gc.isenabled())
+        own = PausedCollector
+        if not own._standing:
+            own._off = own._off or gc.isenabled()
+        own._standing.add(self)
         gc.disable()
 
     def __exit__(self, *_: object) -> None:
-        if self._was and self._was.pop():  # empty where entering was broken off
+        own = PausedCollector
+        own._standing.discard(self)
+        if own._off and not own._standing:
             gc.enable()
+            own._off = False
 
 
 def freeze_loaded_objects() -> None:

@@ -6,6 +6,7 @@ lives in a hull file.
 """
 
 import contextlib
+import gc
 import sys
 import threading
 from collections.abc import Callable
@@ -263,3 +264,23 @@ def test_an_interrupt_in_memory_leaves_what_was_or_what_was_asked(name: str) -> 
         with hull.edit("next") as edit:
             edit.move("WL 3.75 x ST 5", y=3.17)
         assert hull.verify() == (), told
+
+
+@pytest.mark.parametrize("line", range(1, 12))
+def test_an_interrupt_of_a_pause_leaves_the_collector_off_until_the_next_at_most(
+    line: int,
+) -> None:
+    """An edit pauses garbage collection; broken off there, the next edit gives it back."""
+    hull, was = ah.examples.wigley(), gc.isenabled()
+    gc.enable()
+    try:
+        with contextlib.suppress(KeyboardInterrupt):
+            traced(_move, hull, Tracer(line, ("/edit/garbage_collection.py",)))
+        with hull.edit("next") as edit:
+            edit.move("WL 3.75 x ST 5", y=3.17)
+        assert gc.isenabled()
+        gc.disable()
+        _insert(hull)
+        assert not gc.isenabled()  # whoever turned it off himself finds it so
+    finally:
+        (gc.enable if was else gc.disable)()
