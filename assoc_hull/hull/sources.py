@@ -28,6 +28,7 @@ from assoc_hull.hull.hull import Hull
 if TYPE_CHECKING:
     from assoc_hull.creation.classical.classical_net import ClassicalDefinition
     from assoc_hull.creation.design import Design
+    from assoc_hull.creation.design_reading import DesignReading
     from assoc_hull.geometry.patches.spline_surface import SplineSurface
     from assoc_hull.io.importing.import_hull import ImportReport
     from assoc_hull.io.slicing.cut_planes import Places
@@ -130,7 +131,7 @@ examples = Examples()
 
 
 def create(
-    design: Design | ClassicalDefinition | None = None,
+    design: Design | DesignReading | ClassicalDefinition | None = None,
     *,
     length: float | None = None,
     breadth: float | None = None,
@@ -161,8 +162,9 @@ def create(
 
     Parameters
     ----------
-    design : Design, definition or None
-        Particulars, definitions, and where lines are to stand; or what `read_classical` gives.
+    design : Design, DesignReading, definition or None
+        Particulars, definitions, and where lines are to stand, also as `Hull.design` reads them
+        off a hull; or what `read_classical` gives.
         None for a ship from six numbers, which are given by name.
     length : float, m
         Between perpendiculars.
@@ -219,6 +221,7 @@ def create(
     """
     from assoc_hull.creation.classical.classical_net import classical_net
     from assoc_hull.creation.design import Design
+    from assoc_hull.creation.design_reading import DesignReading
     from assoc_hull.creation.design_net import build_net
     from assoc_hull.io.classical.read import is_definition
 
@@ -236,7 +239,9 @@ def create(
     if is_definition(design):
         state, report = classical_net(design)
     else:
-        state, report = build_net(instance(design, Design, "design", "in create"))
+        # A reading is given as it comes from `hull.design()`; what counts is its design.
+        own = getattr(design, "design", design)
+        state, report = build_net(instance(own, Design, "design", "in create"))
     hull = Hull(state)
     hull.adoption = report
     return hull

@@ -177,6 +177,7 @@ def test_a_created_hull_gives_its_own_design(plain_ship: ah.Hull) -> None:
     reading = plain_ship.design()
     assert reading.residuals == ()
     assert "created from definitions" in reading.notes[0]
+    assert ah.create(reading).fingerprint == plain_ship.fingerprint
     assert ah.create(reading.design).fingerprint == plain_ship.fingerprint
 
 
