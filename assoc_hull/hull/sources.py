@@ -221,7 +221,6 @@ def create(
     """
     from assoc_hull.creation.classical.classical_net import classical_net
     from assoc_hull.creation.design import Design
-    from assoc_hull.creation.design_reading import DesignReading
     from assoc_hull.creation.design_net import build_net
     from assoc_hull.io.classical.read import is_definition
 
