@@ -14,7 +14,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.creation.fair_courses import GivenForms
-from assoc_hull.creation.read_courses import distances
+from assoc_hull.creation.fitted_courses import distances
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.form_curves.curve import form_at
 from assoc_hull.model.forms.form_values import Forms
