@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -39,6 +39,7 @@ from assoc_hull.hull.sources import open as open_hull
 if TYPE_CHECKING:
     from assoc_hull.hull.variants import Jumboised, Shifted
     from assoc_hull.variation.faired_followers import FairedFollowers
+    from assoc_hull.variation.vary import VariationReport
 
 __all__ = [
     "add_compare",
@@ -95,7 +96,8 @@ def report_refusal(arguments: argparse.Namespace, run: Callable[[], int]) -> int
     except RefusedEditError as error:
         facts = {"refused": True, "edit": error.edit, "findings": error.findings, "saved": None}
         emit(arguments, facts, "\n".join(error.findings))
-        print(f"refused: {error.edit!r}; the hull is unchanged", file=sys.stderr)
+        what = "would be refused" if getattr(arguments, "dry_run", False) else "refused"
+        print(f"{what}: {error.edit!r}; the hull is unchanged", file=sys.stderr)
         return 1
 
 
@@ -110,6 +112,7 @@ def add_vary(commands: Commands) -> None:
         """assoc-hull vary ship.hull --list
         assoc-hull vary ship.hull --set shaft_height=6.0 --set bossing_radius=1.0 -o larger.hull
         assoc-hull vary ship.hull breadth=51.5 --stations x --json
+        assoc-hull vary ship.hull breadth=51.5 --dry-run
         assoc-hull vary ship.hull --script larger_screw.json -o larger.hull
         assoc-hull vary ship.hull --reach volume=236000 --reach lcb=157 --free breadth=49:52
         --free fore_shift=-3:3 --free aft_shift -o fuller.hull
@@ -171,6 +174,11 @@ def add_vary(commands: Commands) -> None:
         action="store_true",
         help="show present values and what may be asked; write nothing",
     )
+    parser.add_argument(
+        "--dry-run", action="store_true",
+        help="tell what would change: values, lines by their movement along the normal, lines that "
+        "are less fair, hydrostatics; write nothing",
+    )  # fmt: skip
     add_out(parser)
 
 
@@ -178,7 +186,26 @@ def _vary(arguments: argparse.Namespace) -> int:
     if arguments.list:
         return _list(arguments)
     script = _script(arguments)
-    return report_refusal(arguments, lambda: _carry_out(arguments, script))
+    act = _try if arguments.dry_run else _carry_out
+    return report_refusal(arguments, lambda: act(arguments, script))
+
+
+def _try(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
+    """Tell what the variation would change; nothing is written."""
+    from assoc_hull.variation.comparing.comparison import change_words, comparison_document
+
+    hull = open_hull(arguments.hull)
+    with progress("varying"):
+        varied = hull.vary_by(script, ship=arguments.ship)
+    with progress("comparing"):
+        changes = hull.compare(varied.hull)
+    facts = _variation_facts(varied.report, varied.hull.fingerprint, None)
+    told = [*_variation_words(varied.report), *(f"  {each}" for each in change_words(changes))]
+    emit(
+        arguments, facts | {"comparison": comparison_document(changes)},
+        "\n".join([*(each.rstrip() for each in told), "nothing written"]),
+    )  # fmt: skip
+    return 0
 
 
 def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
@@ -187,20 +214,30 @@ def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
         lambda hull: hull.vary_by(script, ship=_ship(arguments, script, hull), in_place=True),
     )  # fmt: skip
     report, saved = found.report, str(arguments.out or arguments.hull)
-    facts = {
+    told = [*_variation_words(report), edit_words(hull, report.edit), f"written: {saved}"]
+    emit(arguments, _variation_facts(report, hull.fingerprint, saved), "\n".join(told))
+    return 0
+
+
+def _variation_facts(
+    report: VariationReport, fingerprint: str, saved: str | None
+) -> dict[str, Any]:
+    return {
         "targets": report.targets, "rounds": report.rounds, "regions": report.regions,
-        "drivers": report.drivers, "added": report.added, "fingerprint": hull.fingerprint,
+        "drivers": report.drivers, "added": report.added, "fingerprint": fingerprint,
         "refused": False, "saved": saved, "script": report.script, "aim": report.aim,
         "faired": _faired(report.faired),
     }  # fmt: skip
-    told = [report.edit.name, *(f"  {each}" for each in report.targets)]
+
+
+def _variation_words(report: VariationReport) -> Iterator[str]:
+    """Say what the values were and have become."""
+    yield report.edit.name
+    yield from (f"  {each}" for each in report.targets)
     if report.aim is not None:
-        told += [f"  {each}" for each in str(report.aim).splitlines()]
+        yield from (f"  {each}" for each in str(report.aim).splitlines())
     if report.faired is not None:
-        told.append(f"  {report.faired}")
-    told += [edit_words(hull, report.edit), f"written: {saved}"]
-    emit(arguments, facts, "\n".join(told))
-    return 0
+        yield f"  {report.faired}"
 
 
 def _ship(arguments: argparse.Namespace, script: dict[str, Any], hull: Hull) -> str | None:

@@ -180,6 +180,73 @@ def test_true_shapes_raise_no_doubt(
     assert body.doubts(heeled) == ()
 
 
+STATIONS = [0, 3.1, 6.2, 9.3, 12.4, 18.6, 24.8, 31, 37.2, 43.4, 46.5, 49.6, 52.7, 55.8, 58.9]
+HEIGHTS = [0, 0.5, 1, 1.5, 2, 3, 4, 5, 6, 6.5]
+
+
+def supply_vessel(x: float, z: float) -> float:
+    """Half-breadth, m: a cutaway aft to a deep transom; of the last station the deck alone."""
+    if x > 58.0:
+        return 1.2 if z >= 6.5 else 0.0
+    aft, fore = max(0.0, 1.0 - x / 18.0), max(0.0, (x - 42.0) / 20.0)
+    keel = 2.5 * aft**1.7
+    if z < keel:
+        return 0.0
+    flat = 0.85 * (1.0 - aft**1.3) * (1.0 - min(fore, 1.0) ** 0.8)
+    rise = min((z - keel) / (1.5 + 0.5 * aft + 3.5 * fore**1.2), 1.0)
+    round_ = flat + (1.0 - flat) * (1.0 - (1.0 - rise) ** 2.2) ** 0.5
+    plan = (1.0 - 0.05 * aft**2) * (1.0 - (fore / (0.97 + 0.06 * z / 6.5)) ** 2.2)
+    return 7.0 * max(plan, 0.0) * (round_ if z > keel or flat else 0.0)
+
+
+def raked_barge(x: float, z: float) -> float:
+    """Half-breadth, m, nan below the keel: the bottom rises by 4 m over 6 m at both ends."""
+    return 6.0 if z >= max(0.0, 4.0 - min(x, 60.0 - x) / 1.5) else math.nan
+
+
+Form = Callable[[float, float], float]
+
+
+def table_file(folder: Path, form: Form, stations: list[float], wrong: float | None) -> Path:
+    """A table without a keel column; of station `wrong` all half-breadths are halved."""
+    rows = ["x_m," + ",".join(f"wl_{z:g}" for z in HEIGHTS)]
+    for x in stations:
+        part = 0.5 if x == wrong else 1.0
+        cells = ",".join(f"{part * form(x, z):.3f}" for z in HEIGHTS)
+        rows.append(f"{x:g}," + cells.replace("nan", ""))
+    file = folder / "offsets.csv"
+    file.write_text("# unit: m\n" + "\n".join(rows) + "\n")
+    return file
+
+
+@pytest.mark.parametrize(
+    ("form", "stations"),
+    [(supply_vessel, STATIONS), (raked_barge, [0, 6, 12, 24, 36, 48, 54, 60])],
+    ids=["supply vessel", "raked barge"],
+)
+def test_a_right_table_that_changes_quickly_is_told_and_not_refused(
+    tmp_path: Path, form: Form, stations: list[float]
+) -> None:
+    """A note names the section, and the error bar is wider."""
+    file = table_file(tmp_path, form, stations, None)
+    hull = ah.read(file, length=60.0, draught=5.0, deck="closed")
+    table = hull.hydrostatic_table([1.0, 3.0, 5.0])
+    (note, *_) = [each for each in table.notes if "neighbours" in each]
+    assert "the shape changes quickly there, or the section is wrong" in note
+    stated = table[2].error["volume"]
+    assert stated is not None
+    assert stated > 0.003 * table[2].volume
+
+
+@pytest.mark.parametrize("wrong", [31.0, 49.6])
+def test_a_section_that_stands_alone_is_refused_by_name(tmp_path: Path, wrong: float) -> None:
+    """Half as broad as it is: among parallel ones, and on the slope of the fore body."""
+    file = table_file(tmp_path, supply_vessel, STATIONS, wrong)
+    hull = ah.read(file, length=60.0, draught=5.0, deck="closed")
+    with pytest.raises(ah.errors.BadInputError, match=f"ST {wrong:g} has .* m2 where its neigh"):
+        hull.hydrostatics()
+
+
 def test_published_ships_raise_no_doubt(dtc: ah.Hull, data_folder: Path) -> None:
     """The bulb of the container ship, and a yacht from a table of offsets."""
     yacht = ah.read(data_folder / "sysser1" / "sysser01_offsets.csv")

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
+from assoc_hull.analysis.fairness import box_solver
 from assoc_hull.analysis.fairness.box_solver import solve_in_box
+from assoc_hull.geometry.curves import FloatArray
 
 
 @given(seed=st.integers(0, 2**32 - 1), size=st.integers(1, 160), width=st.floats(0.05, 3.0))
@@ -47,3 +50,56 @@ def test_where_one_begins_changes_no_bit(seed: int, size: int) -> None:
     side = rng.integers(-1, 2, size)
     other = solve_in_box(csr_array(dense), gradient, -bound, bound, side)
     assert (plain.values == other.values).all()
+
+
+@given(
+    seed=st.integers(0, 2**32 - 1), size=st.integers(2, 60), sets=st.integers(1, 3),
+    patience=st.integers(1, 3), steps=st.sampled_from([0, 1, 3, 60]),
+)  # fmt: skip
+def test_what_is_given_where_sets_run_out_belongs_together(
+    seed: int, size: int, sets: int, patience: int, steps: int
+) -> None:
+    """Sides, values and factors are of one set; from within comes the least, if it gets there."""
+    rng = np.random.default_rng(seed)
+    stiff = 10.0 ** rng.uniform(-1.5, 1.5, (size, 1))
+    second = np.diff(np.eye(size + 2), 2, axis=0)[:, 1:-1] * stiff
+    dense = second.T @ second + np.diag(rng.uniform(1e-3, 0.1, size))
+    gradient = dense @ rng.normal(0.0, 1.0, size)
+    bound = rng.uniform(0.05, 1.0, size) * (rng.random(size) > 0.1)
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in (("_SETS", sets), ("_PATIENCE", patience), ("_STEPS", steps)):
+            patch.setattr(box_solver, name, value)
+        found = solve_in_box(csr_array(dense), gradient, -bound, bound, rng.integers(-1, 2, size))
+    assert (np.abs(found.values) <= bound).all()
+    assert (found.values == found.side * bound)[found.side != 0].all()
+    assert (found.free == np.flatnonzero(found.side == 0)).all()
+    assert (found.factors is None) == (len(found.free) == 0)
+    if found.factors is not None:
+        part = dense[np.ix_(found.free, found.free)]
+        ones = found.factors.solve(part @ np.ones(len(part)))
+        assert np.allclose(ones, 1.0, atol=1e-6)
+    if steps == 60:
+        least = solve_in_box(csr_array(dense), gradient, -bound, bound)
+        assert np.allclose(found.values, least.values, atol=1e-5)
+
+
+@pytest.mark.parametrize("sets", [1, 2], ids=["one set", "two sets"])
+def test_sets_that_run_out_without_a_ring_are_followed_by_the_way_from_within(sets: int) -> None:
+    """Two sets are too few for this problem; patience has not run out."""
+    second = np.diff(np.eye(42), 2, axis=0)[:, 1:-1]
+    dense = second.T @ second + 1e-3 * np.eye(40)
+    gradient, bound = np.sin(np.arange(40.0)), np.full(40, 0.3)
+    least = solve_in_box(csr_array(dense), gradient, -bound, bound)
+    came, within = list[int](), box_solver._Box.from_within
+
+    def counted(box: box_solver._Box) -> FloatArray:
+        came.append(1)
+        return within(box)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(box_solver, "_SETS", sets)
+        patch.setattr(box_solver._Box, "from_within", counted)
+        found = solve_in_box(csr_array(dense), gradient, -bound, bound)
+    assert came == [1]
+    assert (found.values == least.values).all()
+    assert (found.side == least.side).all()

@@ -21,7 +21,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 __all__ = ["BoxSolution", "factorise", "solve_in_box"]
 
 _SETS = 30
-"""Sets that are tried."""
+"""Sets that are tried, and again so many from within."""
 
 _PATIENCE = 3
 """So many sets may have no fewer unknowns on the wrong side than the best one before them."""
@@ -76,32 +76,27 @@ def solve_in_box(
     `side` (n,) says where unknowns stood in a problem like this one: that set is tried first.
     """
     problem = _Box(matrix, gradient, low, high, order)
-    diagonal = matrix.diagonal()
-    side = np.zeros(len(gradient), np.int64) if side is None else side
-    fewest, patience, inner = len(gradient) + 1, _PATIENCE, None
-    for _ in range(_SETS):
-        free = np.flatnonzero(side == 0)
-        found = np.where(side < 0, low, np.where(side > 0, high, 0.0))
-        factors = problem.factors(free) if len(free) else None
-        if factors is not None:
-            found[free] = factors.solve(-(gradient[free] + (matrix @ found)[free]))
-        aim = found - (matrix @ found + gradient) / diagonal
-        new = np.where(aim > high, 1, np.where(aim < low, -1, 0)).astype(np.int64)
-        wrong = int((new != side).sum())
-        if not wrong:
-            break
-        fewest, patience = (wrong, patience) if wrong < fewest else (fewest, patience - 1)
-        if patience > 0:
-            side = new
-        elif inner is None:
-            # a ring of sets: who comes from within does not go round
-            inner, patience = problem.from_within(), _PATIENCE
-            fewest, side = len(gradient) + 1, problem.sides(inner)
-        else:
-            # unknowns that rounding alone holds at their bounds: what came from within is as near
-            found = inner
-            break
-    return BoxSolution(np.clip(found, low, high), side, factors, free)
+    tried = problem.try_sets(np.zeros(len(gradient), np.int64) if side is None else side)
+    if not tried.settled:
+        # a ring of sets, or too many: who comes from within does not go round
+        inner = problem.from_within()
+        tried = problem.try_sets(problem.sides(inner))
+        if not tried.settled:
+            # unknowns that rounding alone holds at their bounds: the nearest of these sets with its
+            # own values, or the first of them with the values from within
+            first = tried.first
+            within = attrs.evolve(first, values=problem.at_sides(inner, first.side))
+            return min(within, tried.nearest, key=lambda each: problem.miss(each.values))
+    return tried.nearest
+
+
+@attrs.frozen(eq=False)
+class _Tried:
+    """The first of the sets that were tried, the nearest to the least, and whether that is it."""
+
+    first: BoxSolution
+    nearest: BoxSolution
+    settled: bool
 
 
 @attrs.frozen(eq=False)
@@ -118,6 +113,39 @@ class _Box:
     @columns.default
     def _columns(self) -> csc_array:
         return csc_array(self.matrix)
+
+    def try_sets(self, side: IntArray) -> _Tried:
+        """Go from set to set until one is right, or they come no nearer, or there were too many."""
+        first = nearest = None
+        least, fewest, patience = np.inf, len(self.gradient) + 1, _PATIENCE
+        for _ in range(_SETS):
+            free = np.flatnonzero(side == 0)
+            found = np.where(side < 0, self.low, np.where(side > 0, self.high, 0.0))
+            factors = self.factors(free) if len(free) else None
+            if factors is not None:
+                found[free] = factors.solve(-(self.gradient[free] + (self.matrix @ found)[free]))
+            new = self.sides(found)
+            now = BoxSolution(np.clip(found, self.low, self.high), side.copy(), factors, free)
+            wrong = int((new != side).sum())
+            first = now if first is None else first
+            if not wrong:
+                return _Tried(first, now, True)
+            miss = self.miss(now.values)
+            if nearest is None or miss < least:
+                nearest, least = now, miss
+            fewest, patience = (wrong, patience) if wrong < fewest else (fewest, patience - 1)
+            if patience == 0:
+                break
+            side = new
+        assert first is not None, "one set at least is tried"
+        assert nearest is not None, "one set at least is tried"
+        return _Tried(first, nearest, False)
+
+    def at_sides(self, found: FloatArray, side: IntArray) -> FloatArray:
+        """Put unknowns at the bounds at which they stand, the others within."""
+        at = np.where(side < 0, self.low, np.where(side > 0, self.high, found))
+        inside: FloatArray = np.clip(at, self.low, self.high)
+        return inside
 
     def factors(self, free: IntArray) -> SuperLU:
         """Factorise the rows and columns of some unknowns, ascending."""
@@ -160,7 +188,7 @@ class _Box:
         room, slope = sign * (at[which] - bound), self.matrix @ at + self.gradient
         force = np.maximum(np.abs(slope), _LEAST_FORCE * np.abs(slope).max())[which]
         for _ in range(_STEPS):
-            if self._miss(at) <= _CLOSE:
+            if self.miss(at) <= _CLOSE:
                 break
             mean = float(room @ force) / len(which)
             stiff = np.bincount(which, force / room, count)
@@ -188,10 +216,11 @@ class _Box:
         at: IntArray = (aim > self.high).astype(np.int64) - (aim < self.low)
         return at
 
-    def _miss(self, found: FloatArray) -> float:
+    def miss(self, found: FloatArray) -> float:
         """Tell how far the worst unknown is from its condition, of the room between its bounds."""
         aim = found - (self.matrix @ found + self.gradient) / self.matrix.diagonal()
-        wide = np.where(np.isfinite(self.high - self.low), self.high - self.low, 1.0)
+        room = self.high - self.low
+        wide = np.where(np.isfinite(room) & (room > 0.0), room, 1.0)
         return float((np.abs(found - np.clip(aim, self.low, self.high)) / wide).max())
 
     def _middle(self) -> FloatArray:

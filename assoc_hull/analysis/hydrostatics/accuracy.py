@@ -49,6 +49,7 @@ __all__ = [
     "CoarseHull",
     "ErrorEstimator",
     "LinesMade",
+    "MildDoubt",
     "are_plainly_sound",
     "doubtful_lines",
     "doubtful_numbers",
@@ -90,6 +91,12 @@ _STRETCHES = 7
 
 _NEAR = 1e-3
 """Corners whose heights differ by less, in parts of the whole, are one."""
+
+
+class MildDoubt(str):
+    """A doubt that refuses nothing: it may be the shape, and stands in the notes."""
+
+    __slots__ = ()
 
 
 @attrs.frozen(eq=False)
@@ -339,6 +346,13 @@ _HAIRPIN = np.radians(150.0)
 _EXPECTED = 0.1
 """Areas of sections differ from what the others expect by less than this, of the largest."""
 
+_BESIDE = 0.25
+"""A wrong section moves what is expected of either neighbour by at least this part of its own
+amount the other way: by half on a straight line, by 9/16 on a cubic."""
+
+_GROSS = 0.25
+"""Of the largest area: so much of an error is seen from one neighbour alone."""
+
 _AGREED = 1e-3
 """Two routes to the volume agree to this."""
 
@@ -508,24 +522,59 @@ def _apart(net: CurveNet, most: float) -> Iterator[str]:
 def _unexpected(
     sections: NetSections, coarse: Sequence[CoarseHull], planes: FloatingPlanes
 ) -> Iterator[str]:
-    """Find sections whose area is not what their neighbours make one expect."""
+    """Find sections whose area is not what their neighbours make one expect.
+
+    A wrong section also spoils what is expected of its neighbours, the other way and about half as
+    much. Where they do not differ so, the shape changes quickly there (a shoulder, the end of a
+    rake or of a cutaway): a `MildDoubt`.
+    """
     own = sections.per_station(sections_below(sections.curves, planes))
-    most = own.max(axis=1)
+    expected = _expected_areas(sections, coarse, planes)
+    off = (own - expected) / own.max(axis=1)[:, None]
+    large = np.abs(off) > _EXPECTED
+    wrong = large & _stand_alone(off)
+    for i in np.flatnonzero(large.any(axis=0)).tolist():
+        # Of the draughts at which it stands alone that with the largest amount, else of all.
+        at = np.abs(off[:, i]) * (wrong[:, i] if wrong[:, i].any() else large[:, i])
+        k = int(at.argmax())
+        doubt = (
+            f"{sections.names[i]} has {own[k, i]:.2f} m2 where its neighbours "
+            f"make one expect {expected[k, i]:.2f} m2, at a draught of "
+            f"{planes.height[k]:.3f} m at AP"
+        )
+        yield doubt if wrong[k, i] else MildDoubt(f"{doubt}: {_QUICK}")
+
+
+_QUICK = (
+    "the shape changes quickly there, or the section is wrong; `error` counts what it may cost, "
+    "and a section between them makes it less"
+)
+
+
+def _expected_areas(
+    sections: NetSections, coarse: Sequence[CoarseHull], planes: FloatingPlanes
+) -> FloatArray:
+    """Give the areas (d, n), m2, of sections in the hull without them; nan where none tells."""
+    found = np.full((len(planes.height), len(sections.x)), np.nan)
     for each in coarse:
         x = station_planes(each.net)
         away = np.abs(sections.x[:, None] - x).min(axis=1) > 1e-6
-        area = np.full_like(own, np.nan)
-        area[:, away] = areas_between(
+        found[:, away] = areas_between(
             each.layout, each.prepared.strips, x, sections.x[away], planes
         )
-        off = np.abs(area - own) / most[:, None]
-        for i in np.flatnonzero((off > _EXPECTED).any(axis=0)).tolist():
-            k = int(off[:, i].argmax())
-            yield (
-                f"{sections.names[i]} has {own[k, i]:.2f} m2 where its neighbours "
-                f"make one expect {area[k, i]:.2f} m2, at a draught of "
-                f"{planes.height[k]:.3f} m at AP"
-            )
+    return found
+
+
+def _stand_alone(off: FloatArray) -> NDArray[np.bool_]:
+    """Tell which sections (d, n) differ the other way than their neighbours, and by far more.
+
+    Beside a flat or the last section only one neighbour tells it; then the amount has to be gross.
+    """
+    beside = np.pad(off, ((0, 0), (1, 1)), constant_values=np.nan)
+    aft, fore = (-np.sign(off) * each for each in (beside[:, :-2], beside[:, 2:]))
+    part = _BESIDE * np.abs(off)
+    gross = np.abs(off) > _GROSS
+    return ((aft >= part) & (fore >= part)) | (gross & (np.fmax(aft, fore) >= 2.0 * part))
 
 
 def _routes(sections: FloatArray, waterplanes: FloatArray) -> Iterator[str]:

@@ -15,6 +15,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.analysis.hydrostatics.accuracy import MildDoubt
 from assoc_hull.analysis.hydrostatics.demihulls import checked_separation, ship_of
 from assoc_hull.analysis.hydrostatics.floating_body import (
     Appendage,
@@ -659,13 +660,19 @@ def doubts_of(
     Raises
     ------
     BadInputError
-        There are some, and they are to be refused.
+        There are some that refuse numbers, and they are to be refused.
     """
     doubts = tuple(body.doubts(planes_of(positions, header.length), by_numbers))
-    if doubts and on_error == "refuse":
-        more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
-        raise BadInputError(doubts[0] + more, where, _remedy(body, header, positions))
+    refused = _refused(doubts)
+    if refused and on_error == "refuse":
+        more = f" (and {len(refused) - 1} more)" if len(refused) > 1 else ""
+        raise BadInputError(refused[0] + more, where, _remedy(body, header, positions))
     return doubts
+
+
+def _refused(doubts: Iterable[str]) -> list[str]:
+    """Give those that refuse numbers."""
+    return [each for each in doubts if not isinstance(each, MildDoubt)]
 
 
 def _remedy(
@@ -673,7 +680,8 @@ def _remedy(
 ) -> str:
     """Say what to do about a doubt: a hull that is sound as designed needs no mending."""
     design = FloatingPosition(header.draught, header.draught)
-    if design not in positions and not any(body.doubts(planes_of([design], header.length), True)):
+    at_design = planes_of([design], header.length)
+    if design not in positions and not _refused(body.doubts(at_design, True)):
         return (
             "at its design draught the hull is sound, so it is the position: too little of the "
             "hull is wet for its lines to tell; take a larger draught, or the numbers with "

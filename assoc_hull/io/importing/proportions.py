@@ -14,6 +14,7 @@ from collections.abc import Mapping
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.hydrostatics.accuracy import MildDoubt
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition, planes_of
 from assoc_hull.analysis.hydrostatics.flotation import body_of
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
@@ -138,10 +139,11 @@ def _floating(state: HullState, found: Findings) -> Hydrostatics | None:
             what = f"{doubt}: hydrostatics are refused; mend the line, or draw what is missing"
             found.fault("open net", "the net", what)
         elif doubt in every:  # other notes tell how the hull was taken, and refuse nothing
-            what = (
-                f"{doubt}: check these numbers; hydrostatics need on_error='report' "
-                "(--on-error report)"
-            )
+            what = doubt
+            if not isinstance(doubt, MildDoubt):
+                what += (
+                    ": check these numbers; hydrostatics need on_error='report' (--on-error report)"
+                )
             found.suspect("doubtful numbers", "the net", what)
     return record
 

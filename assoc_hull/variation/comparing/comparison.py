@@ -47,6 +47,7 @@ __all__ = [
     "HullComparison",
     "alike_words",
     "amount",
+    "change_words",
     "compare",
     "comparison_document",
     "comparison_json",
@@ -492,6 +493,15 @@ def comparison_text(found: HullComparison, lines: int = 10) -> str:
         ("", *object_words(found)),
     ]
     return "\n".join(chain.from_iterable(parts))
+
+
+def change_words(found: HullComparison, lines: int = 10) -> Iterator[str]:
+    """Say what a variation would change: the lines, those that are less fair, the main numbers."""
+    yield f"lines: {counts(found)}"
+    yield from line_words(found)
+    yield from _less_fair(found, lines)
+    yield from _lines(found, lines)
+    yield from _numbers("HYDROSTATICS", [found.hydrostatic(name) for name in PRINCIPAL])
 
 
 def _head(found: HullComparison) -> Iterator[str]:

@@ -214,13 +214,31 @@ def parallel_body_length_field(parent: Parent, asked: float, layout: Layout) -> 
 def fore_shift_field(parent: Parent, asked: float, layout: Layout) -> Share:
     """Shift the sections between the parallel body and where the profile rises, forward."""
     _, _, inner, outer = shift_terminals(parent, "fore_shift")
+    if outer <= inner:
+        raise _no_run(parent, "fore_shift", inner)
     return _bump("fore_shift", inner, outer, asked, layout)
 
 
 def aft_shift_field(parent: Parent, asked: float, layout: Layout) -> Share:
     """Shift the sections between where the profile rises and the parallel body, aft."""
     outer, inner, _, _ = shift_terminals(parent, "aft_shift")
+    if outer >= inner:
+        raise _no_run(parent, "aft_shift", inner)
     return _bump("aft_shift", inner, outer, asked, layout)
+
+
+def _no_run(parent: Parent, name: str, inner: float) -> BadInputError:
+    """Say that the bottom rises from x (m) on, and what moves volume there all the same."""
+    aft = name == "aft_shift"
+    if parent.has("body start"):
+        what, remedy = "parallel body", "parallel_body_start" if aft else "parallel_body_end"
+    else:  # the end of a parallel body cannot be varied where there is none
+        what, remedy = "largest section", "fore_shift" if aft else "aft_shift"
+    return BadInputError(
+        f"{name}: the bottom rises from the {what} on, at x = {inner:.6g} m, and no stretch lies "
+        "between them to be shifted",
+        "in vary", f"vary {remedy}",
+    )  # fmt: skip
 
 
 def shift_terminals(parent: Parent, name: str) -> tuple[float, float, float, float]:
@@ -250,12 +268,6 @@ def shift_terminals(parent: Parent, name: str) -> tuple[float, float, float, flo
 
 def _bump(name: str, inner: float, outer: float, asked: float, layout: Layout) -> Share:
     """Shift between two terminals: the bump is full where its shape is."""
-    if inner == outer:  # a bottom that rises from the parallel body on has no run before it
-        raise BadInputError(
-            f"{name}: the bottom rises from the parallel body on, at x = {inner:.6g} m, and no "
-            "stretch lies between them to be shifted",
-            "in vary", "vary parallel_body_start or parallel_body_end",
-        )  # fmt: skip
     bump = Bump(inner, outer, 1.0, layout.shift)
     full = bump.top
     course = bump.scaled(asked / float(bump.at(np.array(full))))
@@ -500,6 +512,7 @@ def _corner(
 ) -> CornerLayer:
     """Stretch about the corner by ratios (bottom, side), full as far as `size` (m) from it."""
     corner, low = parent.at("corner", name), parent.at("bilge low", name)
+    along = _range(parent, layout, name)
     y, z = float(corner[1]), float(corner[2])
     rise = math.atan2(z - float(low[2]), y - float(low[1]))
     largest = size * max(*ratios, 1.0)
@@ -507,10 +520,11 @@ def _corner(
     if not reach > largest:
         raise BadInputError(
             f"bilge: {name} of {largest:.4g} m from the corner leaves no bottom or side to fade in "
-            f"({reach:.4g} m)", "in vary", "ask for less",
+            f"({reach:.4g} m)", "in vary",
+            "ask for a broader flat" if name == "flat_of_bottom" else "ask for less",
         )  # fmt: skip
     fade = BlendChain.through([size, reach], [1.0, 0.0], layout.curve, name)
-    return CornerLayer(name, _range(parent, layout, name), y, z, rise, *ratios, fade)
+    return CornerLayer(name, along, y, z, rise, *ratios, fade)
 
 
 def bilge_radius_layer(parent: Parent, asked: float, layout: Layout) -> CornerLayer:
@@ -534,6 +548,7 @@ def flat_of_bottom_layer(parent: Parent, asked: float, layout: Layout) -> Corner
     name = "flat_of_bottom"
     edge, corner = parent.at("flat edge", name), parent.at("corner", name)
     y, half = float(edge[1]), float(corner[1])
+    _range(parent, layout, name)  # without a parallel body no half-breadth can be had
     if not 0.0 < asked < half:
         raise BadInputError(
             f"flat_of_bottom of {asked:.6g} m", "in vary",

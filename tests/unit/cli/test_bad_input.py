@@ -36,7 +36,10 @@ def error_of(arguments: list[object], capsys: pytest.CaptureFixture[str], code: 
         (["paint"], "'paint'"),
         (["info"], "HULL"),
         (["info", "a", "b"], "arguments: b; options stand behind all values, in assoc-hull info"),
-        (["vary", "a", "--dry-run"], "--dry-run; there is no such option, in assoc-hull vary"),
+        (
+            ["jumboise", "a", "3", "--dry-run"],
+            "--dry-run; there is no such option, in assoc-hull jumboise",
+        ),
         (["report", "none.hull", "-o", "a.gif"], "at a.gif; end the name in .pdf"),
         (["example", "titanic", "-o", "a.hull.json"], "'titanic'"),
         (["example", "wigley"], "-o"),

@@ -180,3 +180,49 @@ def test_an_option_or_a_value_that_is_not_known_is_not_taken_for_another(
     ah.examples.wigley(stations=5, waterlines=4).save(path)
     assert main(["vary", str(path), *words]) == 2
     assert told in capsys.readouterr().err
+
+
+def test_a_dry_run_tells_what_would_change_and_writes_nothing(
+    hull: Path, tmp_path: Path, facts: Json, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Values before and after, the movement of lines, hydrostatics; then the same is written."""
+    was = {each.name: each.read_bytes() for each in hull.parent.iterdir()}
+    assert main(["vary", str(hull), "breadth=11", "--dry-run"]) == 0
+    words = capsys.readouterr().out
+    for told in ("breadth 10 -> 11 m", "lines: ", "that moved farthest", "HYDROSTATICS"):
+        assert told in words
+    assert words.endswith("nothing written\n")
+    trial = facts("vary", hull, "breadth=11", "--dry-run")
+    assert trial["saved"] is None
+    moved = [each["shift"]["length"] for each in trial["comparison"]["lines"] if each["shift"]]
+    assert max(moved) == pytest.approx(0.5)
+    assert {each.name: each.read_bytes() for each in hull.parent.iterdir()} == was
+    written = facts("vary", hull, "breadth=11", "-o", tmp_path / "broad.hull")
+    same = ("targets", "rounds", "regions", "drivers", "added", "fingerprint", "script")
+    assert {key: trial[key] for key in same} == {key: written[key] for key in same}
+
+
+def test_a_dry_run_names_lines_that_would_be_less_fair(
+    hull: Path, facts: Json, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Those that `compare` would warn of."""
+    asked = ["vary", str(hull), "stem_rake_deg=20"]
+    assert main([*asked, "--dry-run"]) == 0
+    words = capsys.readouterr().out
+    less = ah.open(hull).compare(ah.open(hull).vary(set={"stem_rake_deg": 20.0}).hull).less_fair
+    assert less
+    assert f"WARNING: {len(less)} lines are less fair" in words
+    assert all(f"  {each.name}: " in words for each in less[:10])
+
+
+def test_a_dry_run_of_what_is_refused_gives_the_interval(
+    hull: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The code and the sentence of the variation itself; a misspelt option is told."""
+    codes = [main(["vary", str(hull), "draught=40", *more]) for more in ([], ["--dry-run"])]
+    told = capsys.readouterr().err.splitlines()
+    assert codes[0] == codes[1] != 0
+    assert told[0] == told[1]
+    assert "admissible draught from " in told[0]
+    assert main(["vary", str(hull), "breadth=11", "--dryrun"]) == 2
+    assert "--dry-run" in capsys.readouterr().err

@@ -5,6 +5,7 @@ import re
 from collections.abc import Callable
 from typing import Any, cast
 
+import attrs
 import pytest
 
 import assoc_hull as ah
@@ -25,7 +26,11 @@ from assoc_hull.variation.certificate.fold_check import certify
 from assoc_hull.variation.fields.layers import FieldLayer
 from assoc_hull.variation.parameters.catalogue import NAMES
 from assoc_hull.variation.parameters.field_layout import Layout
-from assoc_hull.variation.parameters.parameter_fields import aft_shift_field
+from assoc_hull.variation.parameters.parameter_fields import (
+    aft_shift_field,
+    flat_of_bottom_layer,
+    fore_shift_field,
+)
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import parent_of
 from assoc_hull.variation.parameters.value_limits import hull_box, present_values
@@ -363,15 +368,47 @@ def test_a_plane_that_comes_to_touch_the_hull_is_told_by_its_line(shipped: Shipp
     assert hull.vary(set={"bulb_half_breadth": 2.05}).report.edit.changed
 
 
-def test_why_a_parameter_cannot_be_varied_is_never_empty() -> None:
-    """A bottom that rises from the parallel body on leaves no run to shift."""
+class Rising:
+    """A parent whose bottom rises from x = 20 m aft and from 40 m forward."""
 
-    class Rising:
-        def has(self, place: str) -> bool:
-            return place == "body start"
+    def __init__(self, inner: str) -> None:
+        self.inner = inner
 
-        def at(self, place: str, _name: str) -> tuple[float]:
-            return ({"aft terminal": 20.0, "body start": 20.0}.get(place, 40.0),)
+    def has(self, place: str) -> bool:
+        """Whether there is such a place."""
+        return place.startswith(self.inner)
 
-    with pytest.raises(BadInputError, match=r"aft_shift: the bottom rises .* at x = 20 m"):
-        aft_shift_field(cast(Any, Rising()), 1.0, Layout())
+    def at(self, place: str, _name: str) -> tuple[float]:
+        """Where it is, m."""
+        return (20.0 if "aft" in place or "start" in place else 40.0,)
+
+
+@pytest.mark.parametrize(
+    ("field", "inner", "remedy"),
+    [
+        (aft_shift_field, "body", "parallel_body_start"),
+        (fore_shift_field, "body", "parallel_body_end"),
+        (aft_shift_field, "largest", "fore_shift"),
+        (fore_shift_field, "largest", "aft_shift"),
+    ],
+    ids=["body aft", "body fore", "largest aft", "largest fore"],
+)
+def test_a_shift_without_a_run_names_what_this_parent_can_vary(
+    field: Callable[..., object], inner: str, remedy: str
+) -> None:
+    """The end of a parallel body where there is one, else the shift of the other end."""
+    with pytest.raises(BadInputError, match=r"shift: the bottom rises .* at x = [24]0 m") as caught:
+        field(cast(Any, Rising(inner)), 1.0, Layout())
+    assert caught.value.remedy == f"vary {remedy}"
+
+
+def test_a_flat_of_bottom_without_a_parallel_body_is_refused_for_that(shipped: Shipped) -> None:
+    """And not for its size: no other size could be had."""
+    hull = shipped("container_ship_225m")
+    parent = parent_of(hull.state)
+    lacking = attrs.evolve(parent, places={
+        key: place for key, place in parent.places.items() if not key.startswith("body")
+    })  # fmt: skip
+    for asked in (0.01, 99.0):
+        with pytest.raises(BadInputError, match="no parallel middle body"):
+            flat_of_bottom_layer(lacking, asked, Layout())
