@@ -1,16 +1,18 @@
-// Fairing: where the hull is wavy, and a window of it that is faired with a noise that a slider sets.
+// Panels that show another hull as a ghost before it is made: a window that is faired, a named parameter.
 
 import {Asker, button, link, paragraph} from "./asker.js";
-import {curveOf} from "./lists.js";
 import {costWords} from "./propose.js";
-import {millimetres} from "./units.js";
+import {curveOf} from "./lists.js";
+import {millimetres, typedNumber} from "./units.js";
+
+/** @typedef {import("./page.js").Page} Page */
 
 const LEAST = 1e-4, TIMES = 2000; // m: the slider goes from 0.1 to 200 mm
 
 /** @typedef {{line: string, largest: number, ratio: number, at: string, inflections: number | null}} Wavy */
 
 export class Fairing extends Asker {
-  /** @param {import("./page.js").Page} page @param {HTMLElement} box */
+  /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
     /** @type {{row: number, name: string, noise: number, radius: number[], state: number} | null} */
@@ -125,4 +127,109 @@ export class Fairing extends Asker {
 
   /** Goes to a place, near enough to see it. @param {string} point @param {string} line */
   #fly(point, line) { this.page.goTo(this.page.store.net?.find(point) == null ? line : point, null, curveOf(this.page, line)); }
+}
+
+/** @typedef {{name: string, unit: string, meaning: string, value: number | null, low: number | null, high: number | null, reason: string | null}} Parameter */
+
+/** How much one press on more or less is. @type {Record<string, number>} */
+const STEPS = {m: 0.1, m2: 1, m3: 100, deg: 1, "-": 0.01};
+
+/** @param {Parameter} found @param {string} unit */
+function spanWords({low, high}, unit) {
+  const words = [low === null ? "" : `from ${low.toFixed(3)}${unit}`, high === null ? "" : `up to ${high.toFixed(3)}${unit}`];
+  return words.filter(Boolean).join(" ") || "no limits";
+}
+
+export class Vary extends Asker {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    super(page, box);
+    /** @type {Parameter[]} */
+    this.found = [];
+    this.choice = document.createElement("select");
+    this.choice.setAttribute("aria-label", "parameter of the hull");
+    this.choice.onchange = () => this.#choose();
+    this.about = paragraph("");
+    this.field = document.createElement("input");
+    this.field.inputMode = "decimal";
+    this.field.onkeydown = (event) => {
+      if (event.key === "Enter") this.#ask(false);
+      if (event.key === "Escape") this.drop();
+    };
+    this.form = document.createElement("div");
+    this.form.className = "form";
+    this.form.hidden = true;
+    const steps = [-1, 1].map((sign) => button("", () => this.#step(sign)));
+    this.steps = steps;
+    this.form.append(this.choice, this.about, this.field, ...steps, button("Preview", () => this.#ask(false)), button("Apply", () => this.#ask(true)), button("Remove ghost", () => this.drop()));
+    box.append(button("List the parameters", () => this.all()), this.form, this.words);
+  }
+
+  all() {
+    this.ask({t: "parameters"}, "Looking; some seconds on a large hull …");
+  }
+
+  #chosen() { return this.found.find(({name}) => name === this.choice.value); }
+
+  #choose() {
+    const found = this.#chosen();
+    if (!found || found.value === null) return;
+    const unit = found.unit === "-" ? "" : ` ${found.unit}`;
+    this.about.textContent = `${found.meaning}: ${found.value.toFixed(3)}${unit} now; ${spanWords(found, unit)}`;
+    this.field.value = found.value.toFixed(3);
+    this.field.setAttribute("aria-label", `wanted ${found.name}${unit && `,${unit}`}`);
+    this.words.textContent = "";
+    this.steps.forEach((each, i) => each.textContent = `${i ? "+" : "−"}${STEPS[found.unit] ?? STEPS["-"]}${unit}`);
+  }
+
+  /** The wanted value, a step more or less; within what is possible. @param {number} sign */
+  #step(sign) {
+    const found = this.#chosen(), value = typedNumber(this.field), base = Number.isFinite(value) ? value : found?.value ?? 0;
+    if (!found) return;
+    const wanted = base + sign * (STEPS[found.unit] ?? STEPS["-"]);
+    this.field.value = Math.min(Math.max(wanted, found.low ?? -Infinity), found.high ?? Infinity).toFixed(3);
+    this.words.textContent = "Preview shows what that does.";
+  }
+
+  /** @param {boolean} apply */
+  #ask(apply) {
+    const found = this.#chosen(), value = typedNumber(this.field);
+    if (!found) return;
+    if (!Number.isFinite(value)) {
+      this.words.textContent = `${this.field.value || "Nothing"} is no number: type one such as ${found.value?.toFixed(3)}`;
+      return;
+    }
+    this.page.dropGhost();
+    const message = {t: "vary", set: {[found.name]: value}, apply};
+    if (apply) this.ask(message, "Varying the hull …");
+    else this.askGhost(message, "Making the ghost …");
+  }
+
+  /** Removes the ghost; an answer that is still to come shows none. */
+  drop() { this.page.dropGhost(); }
+
+  render() {}
+
+  /** @param {{id: number, value: any}} message */
+  answer(message) {
+    if (message.id !== this.asked || !message.value) return;
+    if (this.asked !== this.ghost) {
+      const name = this.choice.value;
+      this.found = message.value.filter((/** @type {Parameter} */ each) => each.value !== null && each.reason === null);
+      this.choice.replaceChildren(...this.found.map((each) => new Option(`${each.name.replace(/_deg$/, "").replaceAll("_", " ")}${each.unit === "-" ? "" : `, ${each.unit}`}`, each.name)));
+      if (this.found.some((each) => each.name === name)) this.choice.value = name;
+      this.form.hidden = false;
+      this.#choose();
+      this.words.textContent = `${this.found.length} parameters can be varied.`;
+      return;
+    }
+    const {volume, lcb} = message.value;
+    this.words.textContent = `Ghost: ${costWords(message.value)}: V ${volume.toFixed(2)} m³, LCB ${lcb.toFixed(3)} m. Nothing is changed yet.`;
+  }
+
+  /** @param {{id: number}} message */
+  done(message) {
+    if (!message.id || message.id !== this.asked) return;
+    this.all();
+  }
 }
