@@ -98,7 +98,7 @@ export class Fairing extends Asker {
     if (this.asked !== this.ghost) return this.#show(message.value);
     const {refused, moved, points} = message.value;
     this.waiting = refused.length > 0;
-    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : `Dashed: ${costWords(message.value)}; ${moved} of ${points} points move by more than 0.1 mm. Nothing is changed yet.`;
+    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : `Dashed: ${costWords(message.value, this.page.store)}; ${moved} of ${points} points move by more than 0.1 mm. Nothing is changed yet.`;
     this.page.say(this.words.textContent);
     this.page.store.changed("panel");
   }
@@ -224,7 +224,7 @@ export class Vary extends Asker {
       return;
     }
     const {volume, lcb} = message.value;
-    this.words.textContent = `Ghost: ${costWords(message.value)}: V ${volume.toFixed(2)} m³, LCB ${lcb.toFixed(3)} m. Nothing is changed yet.`;
+    this.words.textContent = `Ghost: ${costWords(message.value, this.page.store)}: V ${volume.toFixed(2)} m³, LCB ${lcb.toFixed(3)} m. Nothing is changed yet.`;
   }
 
   /** @param {{id: number}} message */

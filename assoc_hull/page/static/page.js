@@ -2,7 +2,7 @@
 
 import {ACTIONS, Keys, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
-import {GHOST, LIVE, NET, THEIRS, VERSION, parseFrame} from "./wire.js";
+import {GHOST, LIVE, NET, PUBLISHED, THEIRS, VERSION, parseFrame} from "./wire.js";
 import {CROSSING, Net} from "./net.js";
 import {keepLooks, layRows, readInk, restoreLooks, themeOf} from "./looks.js";
 import {Panel} from "./panel.js";
@@ -12,7 +12,7 @@ import {Speaker, placeBubble} from "./said.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
 import {count} from "./units.js";
-import {paintHull, paintOverlay} from "./paint.js";
+import {farthestDrawn, paintHull, paintOverlay} from "./paint.js";
 import {makeBar, openPalette} from "./bar.js";
 import {choose, find, goTo, stepCurve, stepPoint} from "./lists.js";
 
@@ -121,7 +121,7 @@ export class Page {
     } else if (message.t === "done") {
       hand.done(message);
       for (const each of this.panel.askers) each.done(message);
-      store.last = message;
+      store.last = {...message, drawn: store.drawn};
       this.say(`${message.name}: ${count(message.relofted, "curve")} followed.`);
       store.changed("panel");
     } else if (message.t === "hold") {
@@ -129,7 +129,7 @@ export class Page {
       if (store.theirs) this.speaker.say(`${message.author} holds ${store.net?.points.get(message.row)?.name ?? "a point"}`);
       store.changed("overlay", "panel");
     } else if (message.t === "theirs") {
-      store.last = message;
+      store.last = {...message, drawn: store.drawn};
       store.changed("panel");
       this.speaker.say(`${message.author} has made: ${message.name}`);
     } else if (message.t === "answer") {
@@ -154,6 +154,7 @@ export class Page {
   #drawn(bytes) {
     const frame = parseFrame(bytes), {store, hand} = this;
     this.stats.bytes = frame.bytes;
+    if (store.net && (frame.kind === NET || frame.kind === PUBLISHED)) store.drawn = farthestDrawn(frame, store.curves);
     if (frame.kind === NET) {
       const first = store.net === null, net = new Net(this.message);
       hand.drop();

@@ -9,7 +9,7 @@ import {Fairing, Vary} from "./ghosts.js";
 import {LineChoice, PointTable, Problems} from "./lists.js";
 import {Numbers} from "./numbers.js";
 import {Past, WhyPanel} from "./past.js";
-import {Proposal} from "./propose.js";
+import {Proposal, farWords} from "./propose.js";
 import {CROSSING} from "./net.js";
 import {PointActs, roleChoice} from "./point_acts.js";
 import {count, millimetres, signed, typedNumber} from "./units.js";
@@ -270,7 +270,7 @@ export class Panel {
       ["last", last.name],
       ...(last.author ? [/** @type {[string, string]} */ (["made by", last.author])] : []),
       ["follow", count(last.relofted, "curve")],
-      ["farthest", last.normal === null ? "no point moves" : `${millimetres(last.normal)} off the hull`],
+      ["farthest", farWords(last.normal, last.drawn) || "no point moves"],
       ["inflections", last.inflections ? `${last.inflections} new` : "none new"],
       ...last.notes.slice(0, 4).map((/** @type {string} */ note) => /** @type {[string, string]} */ (["note", note])),
     ]);

@@ -20,6 +20,8 @@ export class Store {
     /** @type {Map<number, Float64Array>} */
     this.places = new Map();
     this.state = 0;
+    /** The farthest that the last step of the hull moved a line, m. */
+    this.drawn = 0;
     /** @type {Overlay | null} */
     this.overlay = null;
     /** A variant that is shown, not made. @type {Frame | null} */
