@@ -201,8 +201,10 @@ export class Vary extends Asker {
     }
     this.page.dropGhost();
     const message = {t: "vary", set: {[found.name]: value}, apply};
-    if (apply) this.ask(message, "Varying the hull …");
-    else this.askGhost(message, "Making the ghost …");
+    if (apply) {
+      this.ask(message, "Varying the hull …");
+      this.page.applying = this.asked;
+    } else this.askGhost(message, "Making the ghost …");
   }
 
   /** Removes the ghost; an answer that is still to come shows none. */

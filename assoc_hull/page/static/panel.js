@@ -1,14 +1,13 @@
 // The panel at the right: the point, its curve, what the edit does, who signs.
 
 import {ACTIONS, keyWords} from "./actions.js";
+import {Numbers, Past, WhyPanel} from "./answers.js";
 import {button} from "./asker.js";
 import {arcLength, inflections} from "./hermite.js";
 import {farthest} from "./paint.js";
 import {Beside, Files} from "./files.js";
 import {Fairing, Vary} from "./ghosts.js";
 import {LineChoice, PointTable, Problems} from "./lists.js";
-import {Numbers} from "./numbers.js";
-import {Past, WhyPanel} from "./past.js";
 import {Proposal, farWords} from "./propose.js";
 import {CROSSING} from "./net.js";
 import {PointActs, roleChoice} from "./point_acts.js";
@@ -266,6 +265,9 @@ export class Panel {
       ]);
     }
     if (!last) return this.#words(box, "Drag a point: all lines that follow move with it. Esc takes it back.");
+    const {undo, redo} = store.history;
+    // What was told of an edit is no longer so once it is taken back.
+    if (last.state !== store.state) return this.#table(box, [["last", undo ?? "none: the hull is as it came"], ...(redo === null ? [] : [/** @type {[string, string]} */ (["taken back", redo])])]);
     this.#table(box, [
       ["last", last.name],
       ...(last.author ? [/** @type {[string, string]} */ (["made by", last.author])] : []),
