@@ -1,7 +1,6 @@
 // All actions: words, keys, whether they can be done now. And the keys.
 
-import {showChosen} from "./lists.js";
-import {passes, pin, remove} from "./point_acts.js";
+import {passes, pin, remove, showChosen} from "./lists.js";
 
 /** @typedef {import("./page.js").Page} Page */
 

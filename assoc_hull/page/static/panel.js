@@ -7,10 +7,9 @@ import {arcLength, inflections} from "./hermite.js";
 import {farthest} from "./paint.js";
 import {Beside, Files} from "./files.js";
 import {Fairing, Vary} from "./ghosts.js";
-import {LineChoice, PointTable, Problems} from "./lists.js";
+import {LineChoice, PointActs, PointTable, Problems, roleChoice} from "./lists.js";
 import {Proposal, farWords} from "./propose.js";
 import {CROSSING} from "./net.js";
-import {PointActs, roleChoice} from "./point_acts.js";
 import {count, millimetres, signed, typedNumber} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
