@@ -9,7 +9,7 @@ import {millimetres, typedNumber} from "./units.js";
 
 const LEAST = 1e-4, TIMES = 2000; // m: the slider goes from 0.1 to 200 mm
 
-/** @typedef {{line: string, largest: number, ratio: number, at: string, inflections: number | null}} Wavy */
+/** @typedef {{line: string, springs: number, ratio: number, at: string, inflections: number | null}} Wavy */
 
 export class Fairing extends Asker {
   /** @param {Page} page @param {HTMLElement} box */
@@ -18,6 +18,9 @@ export class Fairing extends Asker {
     /** @type {{row: number, name: string, noise: number, radius: number[], state: number} | null} */
     this.window = null;
     this.waiting = false;
+    /** Of which state the list is, and what says that it is old. */
+    this.listed = -1;
+    this.old = paragraph("");
     this.slider = document.createElement("input");
     this.slider.type = "range";
     Object.assign(this.slider, {min: "0", max: "100", step: "1", value: "40"});
@@ -28,7 +31,7 @@ export class Fairing extends Asker {
     const form = document.createElement("div");
     form.className = "form";
     form.append(this.noise, this.slider, button("Preview", () => this.#look()), this.make, button("Give up", () => page.dropGhost()));
-    box.append(button("List the waviest lines", () => this.#list()), form, this.words, this.list);
+    box.append(button("List the waviest lines", () => this.#list()), form, this.words, this.old, this.list);
   }
 
   #value() { return LEAST * TIMES ** (Number(this.slider.value) / 100); }
@@ -40,12 +43,15 @@ export class Fairing extends Asker {
     const words = `Take out noise of ${(1e3 * value).toFixed(1)} mm ${where}`;
     if (this.noise.textContent !== words) this.noise.textContent = words;
     if (this.window && this.window.state !== this.page.store.state) this.window = null;
+    const old = this.listed >= 0 && this.listed !== this.page.store.state ? "The list is that of before the last edit: list again." : "";
+    if (this.old.textContent !== old) this.old.textContent = old;
     this.make.disabled = !this.window || this.waiting || this.asked !== this.ghost;
   }
 
   #list() {
     this.page.dropGhost();
     this.ask({t: "fairness"}, "Laying battens along all lines …");
+    this.listed = this.page.store.state;
   }
 
   #look() {
@@ -107,7 +113,7 @@ export class Fairing extends Asker {
   #show({lines, unfair, points}) {
     this.words.textContent = `${unfair.length ? `${unfair.length} unfair ${unfair.length === 1 ? "place" : "places"}` : "No unfair place"}; ${points.filter(({alarm}) => alarm).length} points look wrong.`;
     const table = document.createElement("table"), caption = table.createCaption(), head = table.createTHead().insertRow(), body = table.createTBody();
-    caption.textContent = "The waviest lines: how far a batten springs at most, times the usual beside, inflections";
+    caption.textContent = "The waviest lines: how far a batten springs where that is least like the lines beside, times the usual there, inflections";
     for (const title of ["line", "springs", "× usual", "turns"]) {
       const cell = document.createElement("th");
       cell.scope = "col";
@@ -117,7 +123,7 @@ export class Fairing extends Asker {
     for (const each of lines) {
       const row = body.insertRow();
       row.insertCell().append(link(each.line, () => this.#fly(each.at, each.line)));
-      for (const words of [millimetres(each.largest), each.ratio.toFixed(1), each.inflections === null ? "–" : String(each.inflections)]) row.insertCell().textContent = words;
+      for (const words of [millimetres(each.springs), each.ratio.toFixed(1), each.inflections === null ? "–" : String(each.inflections)]) row.insertCell().textContent = words;
     }
     const list = (/** @type {string} */ title, /** @type {HTMLElement[]} */ rows) => rows.length ? [paragraph(title), ...rows] : [];
     this.list.replaceChildren(table,
