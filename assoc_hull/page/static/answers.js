@@ -136,7 +136,7 @@ export class WhyPanel extends Asker {
     item.append(link(cause.name, () => this.page.find(cause.name)), ` ${cause.what}${moved}`);
     const below = document.createElement("ul");
     for (const each of cause.causes) below.append(this.#item(each));
-    if (cause.left) below.append(this.#note(`${cause.left} more moved less`));
+    if (cause.left) below.append(this.#note(cause.causes.length ? `${cause.left} more moved less` : `made from ${cause.left} more: click it`));
     if (cause.stopped.length) below.append(this.#note(`came out as they were: ${cause.stopped.slice(0, 3).join(", ")}`));
     if (below.childElementCount) item.append(below);
     return item;
@@ -173,7 +173,7 @@ export class Numbers extends Asker {
   /** @param {import("./page.js").Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
-    this.cursor = document.createElement("p");
+    this.cursor = paragraph("");
     box.append(this.words, this.list, this.cursor);
   }
 
