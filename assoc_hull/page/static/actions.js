@@ -154,8 +154,10 @@ export class Keys {
     if (event.key === "Escape") return this.#escape(typing ? /** @type {HTMLInputElement} */ (event.target) : null, event.target);
     if (typing && !key.startsWith("Ctrl")) return;
     if (typing && ["Ctrl+z", "Ctrl+y", "Ctrl+Shift+z"].includes(key)) return; // of the field
-    const drawing = event.target instanceof HTMLCanvasElement;
+    // Where nothing has the focus, keys are of the drawing that was used last.
+    const nowhere = event.target === page.root.ownerDocument.body, drawing = nowhere || event.target instanceof HTMLCanvasElement;
     if (drawing && event.key in ARROWS) {
+      if (nowhere && store.selection.row === null) return;
       event.preventDefault();
       if (event.ctrlKey || event.metaKey) page.pan(-40 * ARROWS[event.key][0], 40 * ARROWS[event.key][1]);
       else if (store.shaping) page.shaper.nudge(page.activeView(), ARROWS[event.key], (event.shiftKey ? 10 : event.altKey ? 0.1 : 1) * STEP);
@@ -177,6 +179,7 @@ export class Keys {
     if (!action) return;
     event.preventDefault();
     this.finish();
+    if (nowhere) page.activeView().upper.focus({preventScroll: true});
     action.run(page);
   }
 

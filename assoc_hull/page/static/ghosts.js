@@ -1,6 +1,6 @@
 // Panels that show another hull as a ghost before it is made: a window that is faired, a named parameter.
 
-import {Asker, button, link, paragraph} from "./asker.js";
+import {Asker, button, link, paragraph, tableOf} from "./asker.js";
 import {costWords} from "./propose.js";
 import {curveOf} from "./lists.js";
 import {millimetres, typedNumber} from "./units.js";
@@ -112,14 +112,7 @@ export class Fairing extends Asker {
   /** @param {{lines: Wavy[], unfair: {line: string, point: string, residual: number, ratio: number}[], points: {point: string, off: number, score: number, alarm: boolean}[]}} found */
   #show({lines, unfair, points}) {
     this.words.textContent = `${unfair.length ? `${unfair.length} unfair ${unfair.length === 1 ? "place" : "places"}` : "No unfair place"}; ${points.filter(({alarm}) => alarm).length} points look wrong.`;
-    const table = document.createElement("table"), caption = table.createCaption(), head = table.createTHead().insertRow(), body = table.createTBody();
-    caption.textContent = "The waviest lines: how far a batten springs where that is least like the lines beside, times the usual there, inflections";
-    for (const title of ["line", "springs", "× usual", "turns"]) {
-      const cell = document.createElement("th");
-      cell.scope = "col";
-      cell.textContent = title;
-      head.append(cell);
-    }
+    const table = tableOf("The waviest lines: how far a batten springs where that is least like the lines beside, times the usual there, inflections", ["line", "springs", "× usual", "turns"]), body = table.createTBody();
     for (const each of lines) {
       const row = body.insertRow();
       row.insertCell().append(link(each.line, () => this.#fly(each.at, each.line)));

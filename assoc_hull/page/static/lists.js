@@ -1,7 +1,7 @@
 // Lists of lines, points and faults; the ways to what is chosen, named or found; what is done to a chosen point.
 
 import {ADOPTED, CROSSING, PLACED} from "./net.js";
-import {Asker, button, link, paragraph} from "./asker.js";
+import {Asker, button, link, paragraph, tableOf} from "./asker.js";
 import {typedNumber} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
@@ -42,15 +42,7 @@ export class PointTable {
     if (id === null || !store.net) {
       return this.box.replaceChildren(paragraph("Click a line: its points are listed here."));
     }
-    const table = document.createElement("table"), caption = table.createCaption(), head = table.createTHead().insertRow();
-    caption.textContent = `Points of ${store.net.curveName(id)}, m`;
-    for (const title of ["point", "x", "y", "z"]) {
-      const cell = document.createElement("th");
-      cell.scope = "col";
-      cell.textContent = title;
-      head.append(cell);
-    }
-    const body = table.createTBody();
+    const table = tableOf(`Points of ${store.net.curveName(id)}, m`, ["point", "x", "y", "z"]), body = table.createTBody();
     for (const row of alongCurve(store, id)) this.#row(body.insertRow(), row, id);
     this.box.replaceChildren(table);
   }
@@ -161,23 +153,26 @@ export class LineChoice {
 
 const NEAR = 60; // pixels for a metre, at least, where a finding is looked at
 
-/** Chooses, says what it is, and brings it into the picture. @param {Page} page @param {number | null} row @param {number | null} curve */
-export function choose(page, row, curve) {
+/** Chooses, says what it is, and brings it into the picture. @param {Page} page @param {number | null} row @param {number | null} curve @param {boolean} [whole] of a line, from end to end */
+export function choose(page, row, curve, whole = false) {
   const {store} = page, {net} = store, point = row === null ? undefined : net?.points.get(row);
   store.select(row, curve);
   store.marked = null;
-  bring(page);
+  bring(page, whole);
   page.say(point && net ? `${point.name}, ${net.roleWords(point)}` : curve === null ? "" : net?.curveName(curve) ?? "");
 }
 
-/** Brings what is chosen to the middle, where it is not seen. @param {Page} page */
-function bring(page) {
-  const {selection, net} = page.store, view = page.activeView();
-  const row = selection.row ?? (selection.curve === null ? undefined : net?.rowsOf.get(selection.curve)?.[0]), place = row === undefined ? undefined : page.store.placeOf(row);
-  if (!place || view.kind === "wire") return;
-  const [x, y] = view.atPlace(place);
-  if (x < 9 || y < 9 || x > view.width - 9 || y > view.height - 9) view.pan(view.width / 2 - x, view.height / 2 - y);
-  page.store.changed("overlay");
+/** Brings what is chosen into the picture, where it is not seen: a point to the middle, a line as large as it fits. @param {Page} page @param {boolean} whole */
+function bring(page, whole) {
+  const {store} = page, {selection} = store, view = page.activeView(), curve = selection.curve === null ? undefined : store.curveNow(selection.curve);
+  const xyz = selection.row === null ? curve?.xyz : store.placeOf(selection.row);
+  if (!xyz || view.kind === "wire") return;
+  const seen = (/** @type {number} */ i) => {
+    const [x, y] = view.atPlace([...xyz.subarray(3 * i, 3 * i + 3)]);
+    return x >= 9 && y >= 9 && x <= view.width - 9 && y <= view.height - 9;
+  }, ends = Array.from({length: xyz.length / 3}, (_, i) => seen(i)), [x, y] = view.atPlace(xyz);
+  if (whole || selection.row !== null ? !ends.every(Boolean) : !ends.some(Boolean)) selection.row === null ? view.enclose(xyz) : view.pan(view.width / 2 - x, view.height / 2 - y);
+  store.changed("overlay");
 }
 
 /** Shows all of the chosen line, or the chosen point near enough for millimetres; a second time changes nothing. @param {Page} page */
@@ -217,7 +212,7 @@ export function find(page, name) {
   if (row === null && curve === null) return page.say(`There is no point and no line "${name}": type a name such as ${net.byName[0]?.[0] ?? "WL 1"}.`);
   const point = row === null ? undefined : net.points.get(row), view = page.activeView();
   const on = point ? [point.a, point.b].find((id) => { const line = net.lineOf(id); return line && view.shows(line) && line.family !== "boundary"; }) ?? point.a : curve;
-  choose(page, row, on);
+  choose(page, row, on, true);
   view.upper.focus({preventScroll: true});
 }
 

@@ -2,13 +2,11 @@
 
 import {ACTIONS, Keys, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
-import {GHOST, LIVE, NET, PUBLISHED, THEIRS, VERSION, parseFrame} from "./wire.js";
-import {CROSSING, Net} from "./net.js";
-import {keepLooks, layRows, readInk, restoreLooks, themeOf} from "./looks.js";
+import {CROSSING, GHOST, LIVE, NET, Net, PUBLISHED, THEIRS, VERSION, parseFrame} from "./net.js";
+import {Speaker, keepLooks, layRows, placeBubble, readInk, restoreLooks, themeOf} from "./looks.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
 import {Shaper} from "./propose.js";
-import {Speaker, placeBubble} from "./said.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
 import {count} from "./units.js";
@@ -139,7 +137,11 @@ export class Page {
       this.speaker.say(`${message.author} has made: ${message.name}`);
     } else if (message.t === "answer") {
       if (message.id === this.turning) this.say(this.back ? `Taken back: ${store.history.redo}.` : `Made again: ${store.history.undo}.`);
-      for (const each of this.panel.askers) each.answer(message);
+      for (const each of this.panel.askers) {
+        const mine = each.asked === message.id;
+        each.answer(message);
+        if (mine) each.bring();
+      }
     }
     else if (message.t === "problem") {
       if (!this.panel.askers.some((each) => each.problem(message))) {
@@ -369,7 +371,7 @@ export class Page {
     this.back = way === "undo";
     if (this.back && this.shower && !this.applying) {
       this.dropGhost();
-      return this.say("The ghost is taken away; nothing was made of it. Undo again takes back the last edit.");
+      return this.say("The ghost is gone; nothing was made. Undo again takes back the last edit.");
     }
     this.turning = this.request({t: way});
   }

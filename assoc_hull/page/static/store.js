@@ -1,7 +1,7 @@
 // The one store: what is published, what is in hand, what is chosen, how it is looked at.
 
-/** @typedef {import("./wire.js").Curve} Curve */
-/** @typedef {import("./wire.js").Frame} Frame */
+/** @typedef {import("./net.js").Curve} Curve */
+/** @typedef {import("./net.js").Frame} Frame */
 /** @typedef {import("./net.js").Net} Net */
 /** @typedef {"hull" | "overlay" | "panel"} Stale */
 /** @typedef {{frame: Frame, amount: number | null, predicted: boolean}} Overlay */
