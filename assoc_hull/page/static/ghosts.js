@@ -145,6 +145,8 @@ export class Vary extends Asker {
     super(page, box);
     /** @type {Parameter[]} */
     this.found = [];
+    /** The number of the answer that tells limits: each takes a moment. */
+    this.limits = 0;
     this.choice = document.createElement("select");
     this.choice.setAttribute("aria-label", "parameter of the hull");
     this.choice.onchange = () => this.#choose();
@@ -165,7 +167,7 @@ export class Vary extends Asker {
   }
 
   all() {
-    this.ask({t: "parameters"}, "Looking; some seconds on a large hull …");
+    this.ask({t: "parameters"}, "Looking …");
   }
 
   #chosen() { return this.found.find(({name}) => name === this.choice.value); }
@@ -174,7 +176,14 @@ export class Vary extends Asker {
     const found = this.#chosen();
     if (!found || found.value === null) return;
     const unit = found.unit === "-" ? "" : ` ${found.unit}`;
-    this.about.textContent = `${found.meaning}: ${found.value.toFixed(3)}${unit} now; ${spanWords(found, unit)}`;
+    const told = this.about.textContent = `${found.meaning}: ${found.value.toFixed(3)}${unit} now; `;
+    this.about.append("looking for its limits …");
+    this.limits = this.page.request({t: "parameters", of: found.name});
+    /** @param {Parameter} each */
+    this.onLimits = (each) => {
+      Object.assign(found, each);
+      this.about.textContent = told + (each.reason ?? spanWords(each, unit));
+    };
     this.field.value = found.value.toFixed(3);
     this.field.setAttribute("aria-label", `wanted ${found.name}${unit && `,${unit}`}`);
     this.words.textContent = "";
@@ -213,9 +222,10 @@ export class Vary extends Asker {
 
   /** @param {{id: number, value: any}} message */
   answer(message) {
+    const name = this.choice.value;
+    if (message.id === this.limits) return this.onLimits?.(message.value.find((/** @type {Parameter} */ each) => each.name === name));
     if (message.id !== this.asked || !message.value) return;
     if (this.asked !== this.ghost) {
-      const name = this.choice.value;
       this.found = message.value.filter((/** @type {Parameter} */ each) => each.value !== null && each.reason === null);
       this.choice.replaceChildren(...this.found.map((each) => new Option(`${each.name.replace(/_deg$/, "").replaceAll("_", " ")}${each.unit === "-" ? "" : `, ${each.unit}`}`, each.name)));
       if (this.found.some((each) => each.name === name)) this.choice.value = name;
