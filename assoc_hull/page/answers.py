@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Any
 
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
@@ -14,10 +15,16 @@ __all__ = ["describe_hydrostatics", "describe_why"]
 
 _SHOWN = ("volume", "displacement", "lcb", "kb", "bmt", "bml", "kmt", "lcf", "waterplane_area",
           "wetted_surface", "lwl", "bwl", "cb", "cp", "cm", "cw")  # fmt: skip
-_MOST = 12
+_MOST = 5
 """Causes below one thing that are told; the others are counted."""
 
-_DEEPEST = 40
+_ALL = 24
+"""So many causes are told at most."""
+
+_SLIGHT = 5e-5
+"""Causes that moved less (m) are counted, but for the first."""
+
+_STOPS = 3
 
 
 def describe_hydrostatics(now: Hull, then: Hull) -> dict[str, Any]:
@@ -52,14 +59,24 @@ def _areas(hull: Hull) -> list[list[float]]:
 
 def describe_why(why: Why) -> dict[str, Any]:
     """Give the causes of a change as a tree: each with its name, and what happened to it."""
-    return {"edit": why.edit, "step": why.step, "because": why.because, "tree": _cause(why, 0)}
+    tree = _cause(why)
+    waiting, opened, room = deque([(why, tree)]), set[str](), _ALL
+    while waiting:  # the nearest causes first, so that the farthest are those that are counted
+        each, told = waiting.popleft()
+        if each.object in opened:
+            continue
+        opened.add(each.object)
+        shown = [
+            cause for number, cause in enumerate(each.causes[: min(_MOST, room)])
+            if number == 0 or cause.moved is None or cause.moved >= _SLIGHT
+        ]  # fmt: skip
+        room -= len(shown)
+        told["left"] = each.left + len(each.causes) - len(shown)
+        told["causes"] = [_cause(cause) for cause in shown]
+        waiting.extend(zip(shown, told["causes"], strict=True))
+    return {"edit": why.edit, "step": why.step, "because": why.because, "tree": tree}
 
 
-def _cause(why: Why, depth: int) -> dict[str, Any]:
-    shown = why.causes[:_MOST] if depth < _DEEPEST else ()
-    return {
-        "name": why.name, "what": why.what, "moved": why.moved,
-        "left": why.left + len(why.causes) - len(shown),
-        "stopped": list(why.stopped[:_MOST]),
-        "causes": [_cause(each, depth + 1) for each in shown],
-    }  # fmt: skip
+def _cause(why: Why) -> dict[str, Any]:
+    return {"name": why.name, "what": why.what, "moved": why.moved, "left": 0,
+            "stopped": list(why.stopped[:_STOPS]), "causes": []}  # fmt: skip

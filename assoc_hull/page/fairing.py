@@ -24,7 +24,7 @@ _LEAST = 1e-4
 
 
 def describe_fairness(hull: Hull) -> dict[str, Any]:
-    """Give the waviest lines first, by how far battens spring (m), and points that look wrong."""
+    """Give the waviest lines first, how far (m) battens spring there, and points that look wrong."""
     found = hull.fairness()
     wavy = [
         (record, batten) for record, batten in zip(found.records, found.battens, strict=True)
@@ -32,7 +32,7 @@ def describe_fairness(hull: Hull) -> dict[str, Any]:
     ]  # fmt: skip
     wavy.sort(key=lambda each: (-each[1].ratio, -each[1].largest, each[0].name))
     lines = [
-        {"line": record.name, "largest": batten.largest, "ratio": batten.ratio, "at": batten.at,
+        {"line": record.name, "springs": abs(batten.there), "ratio": batten.ratio, "at": batten.at,
          "inflections": record.inflections} for record, batten in wavy[:_LINES]
     ]  # fmt: skip
     doctor = hull.doctor(top=_POINTS)

@@ -268,9 +268,10 @@ class Check:
 
 @attrs.frozen
 class Parameters:
-    """List the named parameters of the hull."""
+    """List the named parameters of the hull; the limits of one of them."""
 
     id: int = attrs.field(validator=_count)
+    of: str | None = attrs.field(default=None, validator=attrs.validators.optional(_name))
 
 
 @attrs.frozen

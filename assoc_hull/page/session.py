@@ -466,7 +466,8 @@ class Session:
         _send(client, {"t": "answer", "id": message.id, "value": found})
 
     def _parameters(self, client: Client, message: Parameters) -> None:
-        self._look(client, message, describe_parameters)
+        of = message.of
+        self._look(client, message, lambda copy: describe_parameters(copy, of))
 
     def _vary(self, client: Client, message: Vary) -> None:
         if message.apply:

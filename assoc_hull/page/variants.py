@@ -23,12 +23,12 @@ class Ghost:
     words: dict[str, Any]
 
 
-def describe_parameters(hull: Hull) -> list[dict[str, Any]]:
-    """Give the named parameters of a hull: value, unit, interval, or the reason for none."""
+def describe_parameters(hull: Hull, of: str | None = None) -> list[dict[str, Any]]:
+    """Give the named parameters of a hull: value, unit, or the reason for none; limits of one."""
     return [
         {"name": each.name, "unit": each.unit, "meaning": each.meaning, "value": each.value,
          "low": each.low, "high": each.high, "reason": each.reason}
-        for each in list_parameters(hull.state)
+        for each in list_parameters(hull.state, limits=() if of is None else (of,))
     ]  # fmt: skip
 
 

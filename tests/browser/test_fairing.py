@@ -118,3 +118,23 @@ def test_a_placed_point_that_is_dragged_leads_its_line(open_page: Open, hull: ah
     hand.page.keyboard.press("Enter")
     hand.until("p => p.store.history.edits === 2")
     assert hull.history[-1].led
+
+
+def test_a_wavy_line_is_listed_with_what_its_batten_does_where_it_leads(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """The figure of a row is that of the place the row leads to; a list of before an edit is old."""
+    hand = open_page(hull)
+    box = hand.page.locator("details:has(h2:text-is('Fair'))")
+    box.locator("summary").click()
+    box.get_by_role("button", name="List the waviest lines").click()
+    row = box.locator("tbody tr").first
+    row.wait_for()
+    found = hull.fairness()
+    place = found.unfair[0]
+    assert row.inner_text().split("\t")[:2] == [place.line, f"{1e3 * abs(place.residual):.1f} mm"]
+    row.get_by_role("button").click()
+    assert hand.ask("p => p.store.net.points.get(p.store.selection.row).name") == place.point
+    assert "list again" not in box.inner_text()
+    hand.ask("(p, name) => p.apply('fuller', [{op: 'pull', point: name, d: 0.005}])", place.point)
+    box.get_by_text("before the last edit: list again").wait_for()

@@ -88,12 +88,15 @@ class BattenFigures:
         The largest |r - e| over the usual; 0 where none is judged.
     at : str
         The point where that is; where none is judged, that of the largest |r|.
+    there : float, m
+        r at that point, outward positive; |there| may be less than `largest`.
     """
 
     median: float
     largest: float
     ratio: float
     at: str
+    there: float
 
 
 @attrs.frozen(eq=False)
@@ -135,6 +138,7 @@ class BattenJudgement:
                     float(size.max()),
                     float(ratio[mine].max()),
                     book.address(int(problem.centre[worst])),
+                    float(problem.residual[worst]),
                 )
             )
         return tuple(found)

@@ -1,7 +1,6 @@
 // All actions: words, keys, whether they can be done now. And the keys.
 
-import {showChosen} from "./lists.js";
-import {passes, pin, remove} from "./point_acts.js";
+import {passes, pin, remove, showChosen} from "./lists.js";
 
 /** @typedef {import("./page.js").Page} Page */
 
@@ -52,7 +51,7 @@ export const ACTIONS = [
   {id: "reshape", words: "Re-shape the chosen line through places that you click", keys: ["r"], label: () => "Re-shape", enabled: (page) => page.store.selection.curve !== null, run: (page) => page.shaper.start()},
   {id: "fair-shape", words: "Answer re-shapes fairly", keys: ["Shift+r"], label: () => "Fair re-shapes", pressed: (page) => page.store.tools.fairShapes, run: (page) => page.toggleTool("fairShapes")},
   {id: "pull-by", words: "Pull the chosen point by a number of millimetres", keys: ["g"], enabled: (page) => page.store.selection.row !== null, run: (page) => page.panel.acts.focus()},
-  {id: "undo", words: "Undo your last edit", keys: ["Ctrl+z"], label: () => "Undo", enabled: (page) => page.hand.free && page.store.history.undo !== null, run: (page) => page.undo()},
+  {id: "undo", words: "Undo your last edit", keys: ["Ctrl+z"], label: () => "Undo", enabled: (page) => page.undoes, run: (page) => page.undo()},
   {id: "redo", words: "Redo what was taken back", keys: ["Ctrl+Shift+z", "Ctrl+y"], label: () => "Redo", enabled: (page) => page.hand.free && page.store.history.redo !== null, run: (page) => page.redo()},
   toggle("combs", "Curvature combs", "k"),
   toggle("allCombs", "Combs on all curves that follow", "Shift+k"),
@@ -132,6 +131,10 @@ export class Keys {
     this.timer = undefined;
     this.burst = false;
     this.sum = [0, 0, 0];
+    /** Steps that were asked for while an edit was being made. @type {(() => void)[]} */
+    this.queue = [];
+    /** A burst that is shown, not made: more of it is added to it. @type {{what: object, row: number, how: string, sum: number[]} | null} */
+    this.shown = null;
     // Also where a button that had the focus is no longer there to have it; not within a notebook.
     const signal = page.options.within;
     page.root.ownerDocument.addEventListener("keydown", (event) => {
@@ -151,8 +154,10 @@ export class Keys {
     if (event.key === "Escape") return this.#escape(typing ? /** @type {HTMLInputElement} */ (event.target) : null, event.target);
     if (typing && !key.startsWith("Ctrl")) return;
     if (typing && ["Ctrl+z", "Ctrl+y", "Ctrl+Shift+z"].includes(key)) return; // of the field
-    const drawing = event.target instanceof HTMLCanvasElement;
+    // Where nothing has the focus, keys are of the drawing that was used last.
+    const nowhere = event.target === page.root.ownerDocument.body, drawing = nowhere || event.target instanceof HTMLCanvasElement;
     if (drawing && event.key in ARROWS) {
+      if (nowhere && store.selection.row === null) return;
       event.preventDefault();
       if (event.ctrlKey || event.metaKey) page.pan(-40 * ARROWS[event.key][0], 40 * ARROWS[event.key][1]);
       else if (store.shaping) page.shaper.nudge(page.activeView(), ARROWS[event.key], (event.shiftKey ? 10 : event.altKey ? 0.1 : 1) * STEP);
@@ -174,6 +179,7 @@ export class Keys {
     if (!action) return;
     event.preventDefault();
     this.finish();
+    if (nowhere) page.activeView().upper.focus({preventScroll: true});
     action.run(page);
   }
 
@@ -203,11 +209,11 @@ export class Keys {
   }
 
   /** @param {[number, number]} way @param {number} times */
-  #nudge(way, times) {
-    const {store, hand} = this.page, view = this.page.activeView();
+  #nudge(way, times, view = this.page.activeView(), row = this.page.store.selection.row) {
+    const {store, hand} = this.page;
     if (view.kind === "wire") return this.page.say("The wire only shows: choose a point in another drawing.");
     if (store.tools.how === "pull") return this.nudge((way[0] + way[1]) * times * STEP);
-    const held = this.#hold("move");
+    const held = this.#hold("move", row, () => this.#nudge(way, times, view, row));
     if (!held) return;
     const s = view.kind === "body" ? view.side(held.start[0]) : 1;
     this.sum[view.a] += s * way[0] * times * STEP;
@@ -217,22 +223,23 @@ export class Keys {
   }
 
   /** Pulls the hull at the chosen point by d (m) more. @param {number} d */
-  nudge(d) {
-    if (!this.#hold("pull")) return;
+  nudge(d, row = this.page.store.selection.row) {
+    if (!this.#hold("pull", row, () => this.nudge(d, row))) return;
     this.sum[0] += d;
     this.page.hand.pull(this.sum[0]);
     this.#wait();
   }
 
-  /** Takes hold of the chosen point, or keeps it in the same burst. @param {"pull" | "move"} how */
-  #hold(how) {
-    const {page} = this, {store, hand} = page, row = store.selection.row;
+  /** Takes hold of a point, or keeps it in the same burst; while an edit is made, that is done later. @param {"pull" | "move"} how @param {number | null} row @param {() => void} again */
+  #hold(how, row, again) {
+    const {page} = this, {store, hand} = page, {what} = page.panel.proposal, {shown} = this;
     if (row === null) return void page.say("Choose a point first: click it, or press / and type its name.");
-    if (this.burst && store.held?.how !== how) this.finish();
+    if (this.burst && (store.held?.how !== how || store.held.row !== row)) this.finish();
     if (!this.burst) {
-      if (!hand.begin(row, how)) return void page.say("That was not done: the last edit is still being made.");
+      if (page.making) return void this.queue.push(again);
+      if (!hand.begin(row, how)) return void page.say("That was not done: let go of the point in hand first.");
       this.burst = true;
-      this.sum = [0, 0, 0];
+      this.sum = shown && shown.what === what && shown.row === row && shown.how === how ? shown.sum : [0, 0, 0];
     }
     if (!store.held) this.burst = false; // it was refused
     return store.held;
@@ -248,6 +255,20 @@ export class Keys {
     clearTimeout(this.timer);
     if (!this.burst) return;
     this.burst = false;
-    this.page.hand.finish();
+    const {hand, panel, store: {held}} = this.page;
+    hand.finish();
+    const {what} = panel.proposal;
+    this.shown = held && what && {what, row: held.row, how: held.how, sum: this.sum};
+  }
+
+  /** The edit is made: what was asked for meanwhile is done now. */
+  resume() {
+    for (const act of this.queue.splice(0)) act();
+  }
+
+  /** Nothing more is done of what was asked for meanwhile. */
+  forget() {
+    const n = this.queue.splice(0).length;
+    if (n) this.page.say(`${n} more ${n === 1 ? "step was" : "steps were"} not made.`);
   }
 }

@@ -28,6 +28,19 @@ export function paragraph(words, name = "") {
   return found;
 }
 
+/** A table with words above it and heads of its columns. @param {string} words @param {string[]} titles */
+export function tableOf(words, titles) {
+  const table = document.createElement("table"), head = table.createTHead().insertRow();
+  table.createCaption().textContent = words;
+  for (const title of titles) {
+    const cell = document.createElement("th");
+    cell.scope = "col";
+    cell.textContent = title;
+    head.append(cell);
+  }
+  return table;
+}
+
 export class Asker {
   /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
@@ -35,6 +48,8 @@ export class Asker {
     this.box = box;
     this.asked = this.ghost = 0;
     this.key = "";
+    /** Whether somebody has opened the panel, and whether an answer comes unasked. */
+    this.led = this.quiet = false;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
     this.words = paragraph("");
@@ -47,6 +62,7 @@ export class Asker {
   /** @param {object} message @param {string} words */
   ask(message, words) {
     this.page.keys.finish(); // or the server would let go of what is in hand
+    this.quiet = false;
     this.asked = this.page.request(message);
     this.words.textContent = words;
   }
@@ -65,7 +81,17 @@ export class Asker {
     if (!this.open || store.connection !== "open" || store.held || !store.net || key === this.key) return;
     this.key = key;
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => store.held ? this.key = "" : load(), PAUSE);
+    this.timer = setTimeout(() => {
+      if (store.held) return void (this.key = "");
+      load();
+      this.quiet = !this.led; // what was opened is led to, what is renewed is not
+      this.led = false;
+    }, PAUSE);
+  }
+
+  /** Brings an answer that was asked for into view. */
+  bring() {
+    if (!this.quiet) this.box.closest("details")?.scrollIntoView({block: "nearest"});
   }
 
   /** The server has gone: nothing is answered any more, and another may not be at the same state. */

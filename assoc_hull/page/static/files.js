@@ -2,7 +2,7 @@
 
 import {Asker, button, paragraph} from "./asker.js";
 import {typedNumber} from "./units.js";
-import {parseFrame} from "./wire.js";
+import {parseFrame} from "./net.js";
 
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {import("./view.js").View} View */

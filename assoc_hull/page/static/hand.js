@@ -3,7 +3,7 @@
 
 /** @typedef {import("./store.js").Store} Store */
 /** @typedef {import("./store.js").Held} Held */
-/** @typedef {import("./wire.js").Frame} Frame */
+/** @typedef {import("./net.js").Frame} Frame */
 /** @typedef {Record<string, number>} Wish */
 
 const SLOW = 250; // ms without an answer: the picture says that it is behind
@@ -246,7 +246,7 @@ export class Hand {
   }
 }
 
-/** @typedef {import("./wire.js").Curve} Curve */
+/** @typedef {import("./net.js").Curve} Curve */
 
 const LEAST = 5e-4; // m: less tells too little of the way
 const TURN = 0.01; // m: so far it may reach beyond nil

@@ -1,6 +1,8 @@
-// Lists of lines, points and faults; the ways to what is chosen, named or found.
+// Lists of lines, points and faults; the ways to what is chosen, named or found; what is done to a chosen point.
 
-import {Asker, button, link, paragraph} from "./asker.js";
+import {ADOPTED, CROSSING, PLACED} from "./net.js";
+import {Asker, button, link, paragraph, tableOf} from "./asker.js";
+import {typedNumber} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
 
@@ -40,15 +42,7 @@ export class PointTable {
     if (id === null || !store.net) {
       return this.box.replaceChildren(paragraph("Click a line: its points are listed here."));
     }
-    const table = document.createElement("table"), caption = table.createCaption(), head = table.createTHead().insertRow();
-    caption.textContent = `Points of ${store.net.curveName(id)}, m`;
-    for (const title of ["point", "x", "y", "z"]) {
-      const cell = document.createElement("th");
-      cell.scope = "col";
-      cell.textContent = title;
-      head.append(cell);
-    }
-    const body = table.createTBody();
+    const table = tableOf(`Points of ${store.net.curveName(id)}, m`, ["point", "x", "y", "z"]), body = table.createTBody();
     for (const row of alongCurve(store, id)) this.#row(body.insertRow(), row, id);
     this.box.replaceChildren(table);
   }
@@ -159,23 +153,26 @@ export class LineChoice {
 
 const NEAR = 60; // pixels for a metre, at least, where a finding is looked at
 
-/** Chooses, says what it is, and brings it into the picture. @param {Page} page @param {number | null} row @param {number | null} curve */
-export function choose(page, row, curve) {
+/** Chooses, says what it is, and brings it into the picture. @param {Page} page @param {number | null} row @param {number | null} curve @param {boolean} [whole] of a line, from end to end */
+export function choose(page, row, curve, whole = false) {
   const {store} = page, {net} = store, point = row === null ? undefined : net?.points.get(row);
   store.select(row, curve);
   store.marked = null;
-  bring(page);
+  bring(page, whole);
   page.say(point && net ? `${point.name}, ${net.roleWords(point)}` : curve === null ? "" : net?.curveName(curve) ?? "");
 }
 
-/** Brings what is chosen to the middle, where it is not seen. @param {Page} page */
-function bring(page) {
-  const {selection, net} = page.store, view = page.activeView();
-  const row = selection.row ?? (selection.curve === null ? undefined : net?.rowsOf.get(selection.curve)?.[0]), place = row === undefined ? undefined : page.store.placeOf(row);
-  if (!place || view.kind === "wire") return;
-  const [x, y] = view.atPlace(place);
-  if (x < 9 || y < 9 || x > view.width - 9 || y > view.height - 9) view.pan(view.width / 2 - x, view.height / 2 - y);
-  page.store.changed("overlay");
+/** Brings what is chosen into the picture, where it is not seen: a point to the middle, a line as large as it fits. @param {Page} page @param {boolean} whole */
+function bring(page, whole) {
+  const {store} = page, {selection} = store, view = page.activeView(), curve = selection.curve === null ? undefined : store.curveNow(selection.curve);
+  const xyz = selection.row === null ? curve?.xyz : store.placeOf(selection.row);
+  if (!xyz || view.kind === "wire") return;
+  const seen = (/** @type {number} */ i) => {
+    const [x, y] = view.atPlace([...xyz.subarray(3 * i, 3 * i + 3)]);
+    return x >= 9 && y >= 9 && x <= view.width - 9 && y <= view.height - 9;
+  }, ends = Array.from({length: xyz.length / 3}, (_, i) => seen(i)), [x, y] = view.atPlace(xyz);
+  if (whole || selection.row !== null ? !ends.every(Boolean) : !ends.some(Boolean)) selection.row === null ? view.enclose(xyz) : view.pan(view.width / 2 - x, view.height / 2 - y);
+  store.changed("overlay");
 }
 
 /** Shows all of the chosen line, or the chosen point near enough for millimetres; a second time changes nothing. @param {Page} page */
@@ -215,7 +212,7 @@ export function find(page, name) {
   if (row === null && curve === null) return page.say(`There is no point and no line "${name}": type a name such as ${net.byName[0]?.[0] ?? "WL 1"}.`);
   const point = row === null ? undefined : net.points.get(row), view = page.activeView();
   const on = point ? [point.a, point.b].find((id) => { const line = net.lineOf(id); return line && view.shows(line) && line.family !== "boundary"; }) ?? point.a : curve;
-  choose(page, row, on);
+  choose(page, row, on, true);
   view.upper.focus({preventScroll: true});
 }
 
@@ -233,4 +230,116 @@ export function stepCurve(page, by) {
   lines.sort((p, q) => (p.offset ?? 0) - (q.offset ?? 0));
   const ids = lines.flatMap((line) => line.curves), at = store.selection.curve === null ? (by > 0 ? -1 : 0) : ids.indexOf(store.selection.curve);
   if (ids.length) choose(page, null, ids[(at + by + ids.length) % ids.length]);
+}
+
+const FARTHEST = 50; // m; no pull is as large
+
+/** Roles that a crossing may be given; of its two lines the first is a. @type {[string | null, string][]} */
+const ROLES = [[null, "by the rule"], ["shared", "shared: both lines are made through it"], ["drives a", "driven by the second line"], ["drives b", "driven by the first line"], ["watched", "watched: it defines neither line"]];
+
+/** @param {Page} page */
+const chosen = ({store: {net, selection}}) => (selection.row === null ? undefined : net?.points.get(selection.row));
+
+/** The name of a point as one of the chosen line: what is said of it is said of that line. @param {Page} page @param {import("./net.js").Point} point */
+function onChosen({store: {net, selection}}, {a, b, name}) {
+  if (b < 0 || !net || (selection.curve !== a && selection.curve !== b)) return name;
+  const own = net.curveName(selection.curve), other = net.curveName(selection.curve === a ? b : a);
+  if (name.startsWith(`${own} x `)) return name;
+  // Where lines meet more than once, the number is that along the line that is named first.
+  return name === `${other} x ${own}` ? `${own} x ${other}` : null;
+}
+
+/** @param {"smooth" | "tangent" | "knuckle"} kind */
+export const passes = (kind) => ({
+  enabled: (/** @type {Page} */ page) => chosen(page) !== undefined && page.hand.free,
+  run: (/** @type {Page} */ page) => {
+    const point = chosen(page), name = point ? onChosen(page, point) : null;
+    if (point && name === null) page.say(`${point.name}: choose the line that is named first, then the point.`);
+    else if (name) page.panel.proposal.show(`${kind} at ${name}`, [{op: "set_kind", point: name, kind}]);
+  },
+});
+
+export const pin = {
+  enabled: (/** @type {Page} */ page) => page.hand.free && (chosen(page)?.sort ?? CROSSING) !== CROSSING,
+  pressed: (/** @type {Page} */ page) => chosen(page)?.sort === PLACED,
+  run: (/** @type {Page} */ page) => {
+    const point = chosen(page);
+    if (point) page.apply(`${point.sort === ADOPTED ? "pin" : "unpin"} ${point.name}`, [{op: point.sort === ADOPTED ? "pin" : "unpin", point: point.name}]);
+  },
+};
+
+export const remove = {
+  enabled: pin.enabled,
+  run: (/** @type {Page} */ page) => {
+    const point = chosen(page);
+    if (point) page.panel.proposal.show(`delete ${point.name}`, [{op: "delete", point: point.name}]);
+  },
+};
+
+/** A choice of the roles of a crossing. @param {Page} page @param {import("./net.js").Point} point */
+export function roleChoice(page, point) {
+  const choice = document.createElement("select");
+  choice.setAttribute("aria-label", "role of the point");
+  choice.append(new Option("role: change it …", ""), ...ROLES.map(([, words], i) => new Option(words, String(i))));
+  choice.onchange = () => {
+    const [role, words] = ROLES[Number(choice.value)];
+    page.apply(`${point.name}, ${words.split(":")[0]}`, [{op: "set_role", crossing: point.name, role}]);
+    choice.value = "";
+  };
+  return choice;
+}
+
+export class PointActs {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    this.page = page;
+    this.element = document.createElement("div");
+    const label = document.createElement("label");
+    this.steps = [-1, 1].map((sign) => button(`${sign < 0 ? "−" : "+"}1 mm`, () => page.keys.nudge(sign * 1e-3)));
+    this.field = document.createElement("input");
+    this.field.inputMode = "decimal";
+    this.field.title = "Outward; a minus goes inward. Enter pulls, over the radius below.";
+    this.field.onkeydown = (event) => {
+      if (event.key !== "Enter") return;
+      event.preventDefault();
+      this.#pull();
+    };
+    label.append("pull outward, mm ", this.field);
+    label.className = "row";
+    this.way = paragraph("");
+    this.element.append(label, this.way);
+    box.append(this.element);
+  }
+
+  /** A knuckle, its end and a deletion are buttons that the panel makes of its table. @param {HTMLElement} buttons */
+  add(buttons) {
+    buttons.prepend(...this.steps);
+    this.element.append(buttons);
+  }
+
+  focus() {
+    this.render();
+    this.field.focus();
+    this.field.select();
+  }
+
+  render() {
+    const point = chosen(this.page);
+    this.element.hidden = !point;
+    if (!point) return;
+    const words = point.held ? this.page.store.net?.wayWords(point) ?? "" : "";
+    if (this.way.textContent !== words) this.way.textContent = words;
+    this.way.hidden = !words;
+  }
+
+  #pull() {
+    const {page} = this, {tools} = page.store, point = chosen(page), far = typedNumber(this.field), d = far / 1e3;
+    if (!point) return;
+    if (!Number.isFinite(d) || d === 0 || Math.abs(d) > FARTHEST) return page.say(`"${this.field.value}" is no pull: type millimetres, such as 5 or -2.5`);
+    const name = `pull ${point.name} by ${far} mm`, ops = [{op: "pull", point: point.name, d, ...(tools.radius ? {radius: tools.radius} : {}), ...(tools.fair ? {fair: true} : {})}];
+    this.field.value = "";
+    // Outside the drawing Enter would pull once more.
+    if (tools.fair) page.panel.proposal.show(`${name}, answered fairly`, ops);
+    else page.apply(name, ops);
+  }
 }

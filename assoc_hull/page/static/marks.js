@@ -255,19 +255,18 @@ export function drawLabels(view, g, ink) {
   const of = (/** @type {string} */ family) => net.lines.filter((line) => line.family === family && line.offset !== null && line.axis !== null);
   const left = places.left = Math.max(view.at(view.kind === "body" ? 0 : x0, y1, 0, -1)[0] - 8, 40);
   const foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
+  places.put(view.kind === "body" ? "BTK" : "ST", left, foot + 12, "right", ink.soft); // first: no label may take the place of an axis' name
   if (view.kind !== "half") {
     places.put("DWL", left, view.at(0, 0, ship.draught, 1)[1], "right", ink.water);
     places.put("BL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
     column(places, "WL", of("waterlines").map((line) => ({name: short(line.name), y: view.at(0, 0, line.offset ?? 0, 1)[1]})));
   }
   if (view.kind === "body") {
-    places.put("BTK", left, foot + 12, "right", ink.soft);
     const names = [...of("buttocks")].reverse();
     for (const side of [-1, 1]) for (const line of names) places.put(short(line.name), view.at(0, line.offset ?? 0, 0, side)[0], foot + 12, "center", ink.soft);
     stationsAbove(view, places, ink);
     if (view.at(0, 0, z0, 1)[1] < view.height) for (const [text, side] of /** @type {[string, number][]} */ ([["aft", -1], ["fore", 1]])) places.put(text, view.at(0, y1 / 2, 0, side)[0], foot + 26, "center", ink.soft);
   } else {
-    places.put("ST", left, foot + 12, "right", ink.soft);
     places.put("AP", view.at(0, 0, 0, 1)[0], foot + 26, "center", ink.soft);
     places.put("FP", view.at(ship.length, 0, 0, 1)[0], foot + 26, "center", ink.soft);
     // Whole stations first, so that halves give way.
@@ -284,7 +283,8 @@ export function drawLabels(view, g, ink) {
 /** Names at the left, with their family above the highest. @param {Places} places @param {string} family @param {{name: string, y: number}[]} rows */
 function column(places, family, rows) {
   const {ink} = places;
-  const written = rows.filter(({name, y}) => places.put(name, places.left, y, "right", ink.soft)).map(({y}) => y);
+  // One at the upper edge would leave no room for the family.
+  const written = rows.filter(({name, y}) => y >= 30 + HIGH + 1 && places.put(name, places.left, y, "right", ink.soft)).map(({y}) => y);
   if (written.length) places.put(family, places.left, Math.min(...written) - HIGH - 1, "right", ink.soft);
 }
 

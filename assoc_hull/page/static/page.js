@@ -2,17 +2,15 @@
 
 import {ACTIONS, Keys, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
-import {GHOST, LIVE, NET, THEIRS, VERSION, parseFrame} from "./wire.js";
-import {CROSSING, Net} from "./net.js";
-import {keepLooks, layRows, readInk, restoreLooks, themeOf} from "./looks.js";
+import {CROSSING, GHOST, LIVE, NET, Net, PUBLISHED, THEIRS, VERSION, parseFrame} from "./net.js";
+import {Speaker, keepLooks, layRows, placeBubble, readInk, restoreLooks, themeOf} from "./looks.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
 import {Shaper} from "./propose.js";
-import {Speaker, placeBubble} from "./said.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
 import {count} from "./units.js";
-import {paintHull, paintOverlay} from "./paint.js";
+import {farthestDrawn, paintHull, paintOverlay} from "./paint.js";
 import {makeBar, openPalette} from "./bar.js";
 import {choose, find, goTo, stepCurve, stepPoint} from "./lists.js";
 
@@ -71,6 +69,9 @@ export class Page {
     this.pending = 0;
     this.number = 0;
     this.said = {words: "", at: -Infinity};
+    /** Numbers of an edit that is being made, and of an undo or redo, 0 if none. */
+    this.applying = this.turning = 0;
+    this.back = false;
     /** The number of the ghost that is waited for or shown, and who asked for it. */
     this.wanted = 0;
     this.shower = /** @type {{dropped: () => void} | null} */ (null);
@@ -105,6 +106,7 @@ export class Page {
   /** @param {any} message */
   #told(message) {
     const {store, hand} = this;
+    if (message.id === this.applying) this.applying = 0; // made, or not
     if (message.t === "session") {
       store.file = message.file;
       store.changed("panel");
@@ -121,26 +123,34 @@ export class Page {
     } else if (message.t === "done") {
       hand.done(message);
       for (const each of this.panel.askers) each.done(message);
-      store.last = message;
+      store.last = {...message, drawn: store.drawn, state: store.state};
       this.say(`${message.name}: ${count(message.relofted, "curve")} followed.`);
       store.changed("panel");
+      if (!this.making) this.keys.resume();
     } else if (message.t === "hold") {
       store.theirs = message.row === null ? null : {author: message.author, row: message.row, frame: null};
       if (store.theirs) this.speaker.say(`${message.author} holds ${store.net?.points.get(message.row)?.name ?? "a point"}`);
       store.changed("overlay", "panel");
     } else if (message.t === "theirs") {
-      store.last = message;
+      store.last = {...message, drawn: store.drawn, state: store.state};
       store.changed("panel");
       this.speaker.say(`${message.author} has made: ${message.name}`);
     } else if (message.t === "answer") {
-      for (const each of this.panel.askers) each.answer(message);
+      if (message.id === this.turning) this.say(this.back ? `Taken back: ${store.history.redo}.` : `Made again: ${store.history.undo}.`);
+      for (const each of this.panel.askers) {
+        const mine = each.asked === message.id;
+        each.answer(message);
+        if (mine) each.bring();
+      }
     }
     else if (message.t === "problem") {
-      if (this.panel.askers.some((each) => each.problem(message))) return;
-      hand.problem(message);
-      store.problem = message.text;
-      store.changed("panel", "overlay");
+      if (!this.panel.askers.some((each) => each.problem(message))) {
+        hand.problem(message);
+        store.problem = message.text;
+        store.changed("panel", "overlay");
+      }
     }
+    if ((message.t === "refused" || message.t === "problem") && !this.making) this.keys.forget();
   }
 
   /** An edit that was typed is refused: said at the point. @param {any} message */
@@ -154,6 +164,7 @@ export class Page {
   #drawn(bytes) {
     const frame = parseFrame(bytes), {store, hand} = this;
     this.stats.bytes = frame.bytes;
+    if (store.net && (frame.kind === NET || frame.kind === PUBLISHED)) store.drawn = farthestDrawn(frame, store.curves);
     if (frame.kind === NET) {
       const first = store.net === null, net = new Net(this.message);
       hand.drop();
@@ -190,6 +201,8 @@ export class Page {
     this.letGo();
     this.hand.drop();
     this.dropGhost();
+    this.applying = this.turning = 0;
+    this.keys.forget();
     for (const each of this.panel.askers) each.lost();
     this.store.theirs = null;
     this.store.connection = how;
@@ -338,15 +351,36 @@ export class Page {
     store.changed("overlay");
   }
 
-  undo() { this.request({t: "undo"}); }
+  /** Whether an edit is on its way. */
+  get making() { return this.hand.committing !== null || this.applying > 0; }
 
-  redo() { this.request({t: "redo"}); }
+  /** Whether there is anything to take back: a ghost, an edit on its way, or the last one. */
+  get undoes() {
+    const {store, hand, keys} = this;
+    return store.connection === "open" && (this.making || keys.burst || (store.held === null && (this.shower !== null || store.history.undo !== null)));
+  }
+
+  undo() { this.#turn("undo"); }
+
+  redo() { this.#turn("redo"); }
+
+  /** What is only shown goes first. @param {"undo" | "redo"} way */
+  #turn(way) {
+    this.keys.finish();
+    this.keys.forget();
+    this.back = way === "undo";
+    if (this.back && this.shower && !this.applying) {
+      this.dropGhost();
+      return this.say("The ghost is gone; nothing was made. Undo again takes back the last edit.");
+    }
+    this.turning = this.request({t: way});
+  }
 
   /** @param {string} name @param {object[]} ops */
   apply(name, ops) {
     this.keys.finish();
     this.store.refusal = this.store.problem = null;
-    return this.request({t: "apply", name: name.slice(0, 190), ops});
+    return this.applying = this.request({t: "apply", name: name.slice(0, 190), ops});
   }
 
   /** @param {string} name */

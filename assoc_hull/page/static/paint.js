@@ -5,8 +5,8 @@ import {diamond, drawHandles, drawLabels} from "./marks.js";
 import {drawBeside, drawPicture} from "./files.js";
 
 /** @typedef {import("./view.js").View} View */
-/** @typedef {import("./wire.js").Curve} Curve */
-/** @typedef {import("./wire.js").Frame} Frame */
+/** @typedef {import("./net.js").Curve} Curve */
+/** @typedef {import("./net.js").Frame} Frame */
 /** @typedef {Record<string, string>} Ink */
 
 const FLATS = 1;
@@ -226,6 +226,7 @@ function drawMoved(view, g, ink, frame, predicted) {
 function drawSpikes(view, g, ink, frame, moved, top) {
   const {net, curves} = view.store;
   view.magnified = magnification(view.magnified, top * view.sy);
+  let any = false;
   g.beginPath();
   for (const id of frame.curves.keys()) {
     const line = net?.lineOf(id), by = moved.get(id), old = curves.get(id);
@@ -239,11 +240,13 @@ function drawSpikes(view, g, ink, frame, moved, top) {
         const [x, y] = view.at(old.xyz[p], old.xyz[p + 1], old.xyz[p + 2], side), [dx, dy] = view.seen(way, side);
         if (Math.hypot(x - last[0], y - last[1]) < 7) continue; // a hedge shows nothing
         last = [x, y];
+        any = true;
         g.moveTo(x, y);
         g.lineTo(x + view.magnified * dx, y + view.magnified * dy);
       }
     }
   }
+  if (!any) view.magnified = 0; // nothing is seen to move: no factor is told
   g.strokeStyle = ink.spike;
   g.lineWidth = 1.3;
   g.stroke();

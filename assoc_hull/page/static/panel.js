@@ -1,18 +1,15 @@
 // The panel at the right: the point, its curve, what the edit does, who signs.
 
 import {ACTIONS, keyWords} from "./actions.js";
-import {button} from "./asker.js";
+import {Numbers, Past, WhyPanel} from "./answers.js";
+import {button, link, paragraph} from "./asker.js";
 import {arcLength, inflections} from "./hermite.js";
 import {farthest} from "./paint.js";
 import {Beside, Files} from "./files.js";
-import {LineChoice, PointTable, Problems} from "./lists.js";
-import {Fairing} from "./fair.js";
-import {Numbers} from "./numbers.js";
-import {Past, WhyPanel} from "./past.js";
-import {Proposal} from "./propose.js";
-import {Vary} from "./vary.js";
+import {Fairing, Vary} from "./ghosts.js";
+import {LineChoice, PointActs, PointTable, Problems, roleChoice} from "./lists.js";
+import {Proposal, farWords} from "./propose.js";
 import {CROSSING} from "./net.js";
-import {PointActs, roleChoice} from "./point_acts.js";
 import {count, millimetres, signed, typedNumber} from "./units.js";
 
 /** @typedef {import("./page.js").Page} Page */
@@ -29,7 +26,11 @@ export class Panel {
     this.parts = Object.fromEntries(["Proposal", "Point", "Curve", "Edit", "Pull", "Why", "History", "Hydrostatics", "Fair", "Vary", "Points", "Problems", "Export", "Beside", "Signed as"].map((title) => {
       const box = document.createElement("details"), head = document.createElement("summary"), heading = document.createElement("h2"), body = document.createElement("div");
       box.open = OPEN.includes(title);
-      box.ontoggle = () => page.store.changed("panel");
+      box.ontoggle = () => {
+        const asker = this.askers.find((each) => each.box === body);
+        if (asker) asker.led = box.open;
+        page.store.changed("panel");
+      };
       heading.textContent = title;
       head.append(heading);
       box.append(head, body);
@@ -123,6 +124,7 @@ export class Panel {
     box.open = true;
     box.querySelector("summary")?.focus();
     this.render();
+    box.scrollIntoView({block: "nearest"});
   }
 
   /** @param {HTMLElement} box @param {[string, string | Node][]} rows */
@@ -138,11 +140,7 @@ export class Panel {
   }
 
   /** @param {HTMLElement} box @param {string} words */
-  #words(box, words) {
-    const line = document.createElement("p");
-    line.textContent = words;
-    box.replaceChildren(line);
-  }
+  #words(box, words) { box.replaceChildren(paragraph(words)); }
 
   #point() {
     const {store} = this.page, box = this.pointBox, row = store.held?.row ?? store.selection.row;
@@ -160,12 +158,7 @@ export class Panel {
       if (moved) moved.textContent = this.#movedWords(row);
       return;
     }
-    const link = document.createElement("button");
-    link.type = "button";
-    link.className = "link";
-    link.textContent = store.net.roleWords(point);
-    link.onclick = () => store.select(null, point.driver);
-    const moved = document.createElement("span");
+    const role = store.net.roleWords(point), moved = document.createElement("span");
     moved.className = "moved";
     moved.textContent = this.#movedWords(row);
     // What is typed stays when somebody else has edited the hull meanwhile.
@@ -179,7 +172,7 @@ export class Panel {
     this.#table(box, [
       ["name", point.label || point.name],
       ["sort", store.net.sortWords(point)],
-      ["role", point.driver >= 0 ? link : store.net.roleWords(point)],
+      ["role", point.driver >= 0 ? link(role, () => store.select(null, point.driver)) : role],
       ["passes", store.net.kindWords(point)],
       ...AXES.map((name, i) => /** @type {[string, Node]} */ ([`${name}, m`, this.fields[i]])),
       ["moved", moved],
@@ -267,18 +260,21 @@ export class Panel {
       ]);
     }
     if (!last) return this.#words(box, "Drag a point: all lines that follow move with it. Esc takes it back.");
+    const {undo, redo} = store.history;
+    // What was told of an edit is no longer so once it is taken back.
+    if (last.state !== store.state) return this.#table(box, [["last", undo ?? "none: the hull is as it came"], ...(redo === null ? [] : [/** @type {[string, string]} */ (["taken back", redo])])]);
     this.#table(box, [
       ["last", last.name],
       ...(last.author ? [/** @type {[string, string]} */ (["made by", last.author])] : []),
       ["follow", count(last.relofted, "curve")],
-      ["farthest", last.normal === null ? "no point moves" : `${millimetres(last.normal)} off the hull`],
+      ["farthest", farWords(last.normal, last.drawn) || "no point moves"],
       ["inflections", last.inflections ? `${last.inflections} new` : "none new"],
       ...last.notes.slice(0, 4).map((/** @type {string} */ note) => /** @type {[string, string]} */ (["note", note])),
     ]);
   }
 
   #signature() {
-    const {page} = this, field = document.createElement("input"), words = document.createElement("p");
+    const {page} = this, field = document.createElement("input");
     field.setAttribute("aria-label", "name that your edits are signed with");
     field.value = page.options.author;
     field.maxLength = 80;
@@ -286,7 +282,6 @@ export class Panel {
       page.sign(field.value);
       field.value = page.store.author;
     };
-    words.textContent = "Undo takes back what this name has signed.";
-    this.parts["Signed as"].append(field, words);
+    this.parts["Signed as"].append(field, paragraph("Undo takes back what this name has signed."));
   }
 }

@@ -8,10 +8,17 @@ import {millimetres, signed} from "./units.js";
 
 /** @typedef {{normal: number | null, moved: number, volume_change: number | null, lcb_change: number | null, notes?: string[], refused: string[]}} Cost */
 
-/** Between its points a line may move more than they do: `drawn` is how far, m. @param {Cost} cost @param {number} [drawn] */
-export function costWords({normal, volume_change: volume, lcb_change: lcb}, drawn = 0) {
+/** How far points move off the hull, and lines between them, where that is farther, m. @param {number | null} normal @param {number} drawn */
+export function farWords(normal, drawn) {
+  if (normal === null && drawn < 1e-4) return "";
+  return `${millimetres(normal ?? 0)} off the hull${drawn > (normal ?? 0) + 1e-4 ? `, ${millimetres(drawn)} between points` : ""}`;
+}
+
+/** What the ghost that is shown would do. @param {Cost} cost @param {import("./store.js").Store} store */
+export function costWords({normal, volume_change: volume, lcb_change: lcb}, {ghost, curves}) {
+  const far = farWords(normal, ghost ? farthestDrawn(ghost, curves) : 0);
   return [
-    normal === null && drawn < 1e-4 ? "nothing moves" : `largest movement ${millimetres(Math.max(normal ?? 0, drawn))} off the hull`,
+    far ? `largest movement ${far}` : "nothing moves",
     volume === null || volume === undefined ? "" : `V ${signed(volume, 2, "m³")}`,
     lcb === null || lcb === undefined ? "" : `LCB ${signed(lcb, 4, "m")}`,
   ].filter(Boolean).join(", ");
@@ -74,10 +81,10 @@ export class Proposal extends Asker {
   /** @param {{id: number, value: Cost}} message */
   answer(message) {
     if (message.id !== this.asked || !this.what) return;
-    const {refused, notes} = message.value, {ghost, curves} = this.page.store;
+    const {refused, notes} = message.value;
     this.ready = !refused.length;
     if (this.ready && !this.what.draft) this.make.scrollIntoView({block: "nearest"});
-    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value, ghost ? farthestDrawn(ghost, curves) : 0)}.`, this.what.draft ? "Nothing is changed yet: click more places; Enter shows the answer, Esc gives up." : "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
+    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value, this.page.store)}.`, this.what.draft ? "Nothing is changed yet: click more places; Enter shows the answer, Esc gives up." : "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
     this.page.say(this.words.textContent);
     this.page.store.changed("panel");
   }

@@ -1,7 +1,7 @@
 // The one store: what is published, what is in hand, what is chosen, how it is looked at.
 
-/** @typedef {import("./wire.js").Curve} Curve */
-/** @typedef {import("./wire.js").Frame} Frame */
+/** @typedef {import("./net.js").Curve} Curve */
+/** @typedef {import("./net.js").Frame} Frame */
 /** @typedef {import("./net.js").Net} Net */
 /** @typedef {"hull" | "overlay" | "panel"} Stale */
 /** @typedef {{frame: Frame, amount: number | null, predicted: boolean}} Overlay */
@@ -20,6 +20,8 @@ export class Store {
     /** @type {Map<number, Float64Array>} */
     this.places = new Map();
     this.state = 0;
+    /** The farthest that the last step of the hull moved a line, m. */
+    this.drawn = 0;
     /** @type {Overlay | null} */
     this.overlay = null;
     /** A variant that is shown, not made. @type {Frame | null} */

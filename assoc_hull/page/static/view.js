@@ -2,7 +2,7 @@
 
 import {bezier} from "./hermite.js";
 
-/** @typedef {import("./wire.js").Curve} Curve */
+/** @typedef {import("./net.js").Curve} Curve */
 /** @typedef {import("./net.js").Line} Line */
 /** @typedef {import("./store.js").Store} Store */
 /** @typedef {"body" | "profile" | "half" | "wire"} Kind */
@@ -225,9 +225,10 @@ export class View {
     for (const view of this.partner ? [this, this.partner] : [this]) if (view.shown) view.set = [view.width, view.height];
     const both = (this.partner ? [this, this.partner] : [this]).filter((view) => view.shown);
     const rooms = both.map((view) => view.room()), squeeze = this.kind === "wire" || this.kind === "body" ? 1 : this.store.squeeze;
-    this.axis.s = Math.min(...rooms.map((room) => Math.min(room.across, room.up)));
-    both.forEach((view, i) => {
-      view.sy = squeeze === 1 ? this.axis.s : Math.min(rooms[i].up, this.axis.s * squeeze);
+    // Lengths give way where heights have no room to grow: every factor is what it says.
+    this.axis.s = Math.min(...rooms.map((room) => Math.min(room.across, room.up / squeeze)));
+    both.forEach((view) => {
+      view.sy = this.axis.s * squeeze;
       const [, , v0, v1] = view.extent(), [, top, , bottom] = MARGINS[view.kind];
       view.oy = (top + view.height - bottom) / 2 + view.sy * (v0 + v1) / 2;
       view.fitted = true;

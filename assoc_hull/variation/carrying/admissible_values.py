@@ -9,7 +9,7 @@ after it. `list_parameters` gives present values, intervals and conflicts of all
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cached_property
 
 import attrs
@@ -358,7 +358,9 @@ def _end(value: float | None, inward: Callable[[float], int]) -> str:
     return f"{inward(value * scale) / scale:.{_DIGITS}g}"
 
 
-def list_parameters(state: HullState, layout: Layout | None = None) -> tuple[ListedParameter, ...]:
+def list_parameters(
+    state: HullState, layout: Layout | None = None, limits: Collection[str] = CATALOGUE
+) -> tuple[ListedParameter, ...]:
     """List all named parameters of a hull.
 
     Parameters
@@ -367,6 +369,8 @@ def list_parameters(state: HullState, layout: Layout | None = None) -> tuple[Lis
         The tables.
     layout : Layout or None
         How far the fields reach, on which intervals depend; None for the usual reaches.
+    limits : names
+        Of which parameters the interval is sought, up to a second for each; the others have none.
 
     Examples
     --------
@@ -381,16 +385,16 @@ def list_parameters(state: HullState, layout: Layout | None = None) -> tuple[Lis
     # the box in which a variation is certified
     parent, box = parent_of(state, found), hull_box(state, TOLERANCE)
     room = AdmissibleValues(state, parent, present_values(found, given), given, box)
-    return tuple(_listed(name, found, room) for name in CATALOGUE)
+    return tuple(_listed(name, found, room, name in limits) for name in CATALOGUE)
 
 
-def _listed(name: str, found: Measures, room: AdmissibleValues) -> ListedParameter:
+def _listed(name: str, found: Measures, room: AdmissibleValues, limited: bool) -> ListedParameter:
     entry, reason = CATALOGUE[name], found.absent.get(name)
     value = room.present.get(name)
     low = high = None
     if value is None:
         reason = reason or "the deck edge does not reach there"
-    else:
+    elif limited:
         try:
             low, high = (each if math.isfinite(each) else None for each in room.interval(name))
         except BadInputError as error:

@@ -5,9 +5,8 @@ import {readFileSync} from "node:fs";
 import {test} from "node:test";
 import {ACTIONS, keyName, keyWords} from "./actions.js";
 import {evaluate} from "./hermite.js";
-import {alike} from "./net.js";
 import {Predictor} from "./hand.js";
-import {NET, parseFrame} from "./wire.js";
+import {NET, alike, parseFrame} from "./net.js";
 
 const given = JSON.parse(readFileSync("given.json", "utf8")), raw = readFileSync("net.frame");
 const frame = parseFrame(raw.buffer.slice(raw.byteOffset, raw.byteOffset + raw.byteLength));
