@@ -122,6 +122,17 @@ def test_a_bad_list_of_names_is_found(text: str, fault: str) -> None:
     assert public_names(Path("module.py"), ast.parse(text)) == [fault]
 
 
+def test_a_public_class_name_stands_once(parsed: dict[Path, ast.Module]) -> None:
+    """Who reads a name in a message or a type finds one class of it."""
+    homes = dict[str, list[str]]()
+    for path, tree in parsed.items():
+        for node in tree.body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                homes.setdefault(node.name, []).append(module_id(path))
+    assert len(homes) > 1000
+    assert {name: where for name, where in homes.items() if len(where) > 1} == {}
+
+
 def test_what_locks_is_left_open_by_an_interrupt(parsed: dict[Path, ast.Module]) -> None:
     """Between the last statement of a ``with lock`` and the release an interrupt leaves it taken.
 

@@ -18,6 +18,11 @@ from assoc_hull.errors import BadInputError, WrongTypeError
 __all__ = [
     "LONGEST",
     "Apply",
+    "AskFairness",
+    "AskHydrostatics",
+    "AskPreview",
+    "AskSteps",
+    "AskWhy",
     "Begin",
     "Cancel",
     "Check",
@@ -25,21 +30,16 @@ __all__ = [
     "Commit",
     "Compare",
     "Export",
-    "Fairness",
     "Go",
     "Hello",
-    "Hydrostatics",
     "Message",
     "Parameters",
-    "Preview",
     "Question",
     "Redo",
     "Sign",
-    "Steps",
     "To",
     "Undo",
     "Vary",
-    "Why",
     "Window",
     "parse",
 ]
@@ -181,7 +181,7 @@ class Redo:
 
 
 @attrs.frozen
-class Steps:
+class AskSteps:
     """List the steps and names of the history."""
 
     id: int = attrs.field(validator=_count)
@@ -212,7 +212,7 @@ class Checkpoint:
 
 
 @attrs.frozen
-class Why:
+class AskWhy:
     """Tell why a point or a line lies where it does."""
 
     id: int = attrs.field(validator=_count)
@@ -220,14 +220,14 @@ class Why:
 
 
 @attrs.frozen
-class Hydrostatics:
+class AskHydrostatics:
     """Measure the hull at its design draught, beside what it was when the server began."""
 
     id: int = attrs.field(validator=_count)
 
 
 @attrs.frozen
-class Fairness:
+class AskFairness:
     """List the waviest lines, and points that their lines do not bear out."""
 
     id: int = attrs.field(validator=_count)
@@ -244,7 +244,7 @@ class Window:
 
 
 @attrs.frozen
-class Preview:
+class AskPreview:
     """Show the hull as it would be after edits, which are given as for `Apply`."""
 
     id: int = attrs.field(validator=_count)
@@ -293,25 +293,27 @@ Message = (
     | Apply
     | Undo
     | Redo
-    | Steps
+    | AskSteps
     | Go
     | Compare
     | Checkpoint
-    | Why
-    | Hydrostatics
-    | Fairness
+    | AskWhy
+    | AskHydrostatics
+    | AskFairness
     | Window
-    | Preview
+    | AskPreview
     | Export
     | Check
     | Parameters
     | Vary
 )
 
-Question = Parameters | Vary | Compare | Hydrostatics | Fairness | Window | Preview
+Question = Parameters | Vary | Compare | AskHydrostatics | AskFairness | Window | AskPreview
 """What is answered from a copy of the hull: the newest of a kind wins."""
 
-_KINDS: dict[str, type[Message]] = {kind.__name__.lower(): kind for kind in get_args(Message)}
+_KINDS: dict[str, type[Message]] = {
+    kind.__name__.removeprefix("Ask").lower(): kind for kind in get_args(Message)
+}
 
 
 def parse(text: str) -> Message:

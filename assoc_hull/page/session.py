@@ -36,6 +36,11 @@ from assoc_hull.page.fairing import describe_fairness, ghost_of_edits, ghost_of_
 from assoc_hull.page.files import write_export
 from assoc_hull.page.messages import (
     Apply,
+    AskFairness,
+    AskHydrostatics,
+    AskPreview,
+    AskSteps,
+    AskWhy,
     Begin,
     Cancel,
     Check,
@@ -43,21 +48,16 @@ from assoc_hull.page.messages import (
     Commit,
     Compare,
     Export,
-    Fairness,
     Go,
     Hello,
-    Hydrostatics,
     Message,
     Parameters,
-    Preview,
     Question,
     Redo,
     Sign,
-    Steps,
     To,
     Undo,
     Vary,
-    Why,
     Window,
 )
 from assoc_hull.page.past import (
@@ -478,7 +478,7 @@ class Session:
             return
         self._show(client, message, lambda copy: _shown(ghost_of_variant(copy, message.set)))
 
-    def _steps(self, client: Client, message: Steps) -> None:
+    def _steps(self, client: Client, message: AskSteps) -> None:
         _answer(client, message.id, describe_steps(self.hull.document))
 
     def _go(self, client: Client, message: Go) -> None:
@@ -502,14 +502,14 @@ class Session:
             self.hull.checkpoint(message.name)
         _answer(client, message.id, describe_steps(self.hull.document))
 
-    def _why(self, client: Client, message: Why) -> None:
+    def _why(self, client: Client, message: AskWhy) -> None:
         _answer(client, message.id, describe_why(self.hull.why(message.of)))
 
-    def _hydrostatics(self, client: Client, message: Hydrostatics) -> None:
+    def _hydrostatics(self, client: Client, message: AskHydrostatics) -> None:
         opening = self._opening
         self._look(client, message, lambda copy: describe_hydrostatics(copy, opening))
 
-    def _fairness(self, client: Client, message: Fairness) -> None:
+    def _fairness(self, client: Client, message: AskFairness) -> None:
         self._look(client, message, describe_fairness)
 
     def _window(self, client: Client, message: Window) -> None:
@@ -518,7 +518,7 @@ class Session:
             client, message, lambda copy: ghost_of_window(copy, row, (reach[0], reach[1]), noise)
         )
 
-    def _preview(self, client: Client, message: Preview) -> None:
+    def _preview(self, client: Client, message: AskPreview) -> None:
         self._show(client, message, lambda copy: ghost_of_edits(copy, message.ops))
 
     def _export(self, client: Client, message: Export) -> None:
@@ -577,7 +577,7 @@ class Session:
             with self._told(client, message):
                 job()
 
-        (self._answerer if isinstance(message, Preview) else self._reader).submit(told)
+        (self._answerer if isinstance(message, AskPreview) else self._reader).submit(told)
 
     def _publish(self, before: int) -> None:
         """Tell everybody what has changed since a state."""
@@ -618,9 +618,9 @@ class Session:
     _acts: ClassVar[dict[type[Any], Callable[[Session, Client, Any], None]]] = {
         Hello: _hello, Sign: _sign, Begin: _begin, To: _to, Commit: _commit, Cancel: _cancel,
         Apply: _apply, Undo: _undo, Redo: _redo, Check: _check,
-        Parameters: _parameters, Vary: _vary, Steps: _steps, Go: _go, Compare: _compare,
-        Checkpoint: _checkpoint, Why: _why, Hydrostatics: _hydrostatics,
-        Fairness: _fairness, Window: _window, Preview: _preview, Export: _export,
+        Parameters: _parameters, Vary: _vary, AskSteps: _steps, Go: _go, Compare: _compare,
+        Checkpoint: _checkpoint, AskWhy: _why, AskHydrostatics: _hydrostatics,
+        AskFairness: _fairness, Window: _window, AskPreview: _preview, Export: _export,
     }  # fmt: skip
 
 

@@ -16,15 +16,15 @@ from assoc_hull.edit.drag import Drag, Live
 from assoc_hull.page.fairing import ghost_of_edits
 from assoc_hull.page.messages import (
     Apply,
+    AskHydrostatics,
+    AskPreview,
     Begin,
     Cancel,
     Check,
     Commit,
     Hello,
-    Hydrostatics,
     Message,
     Parameters,
-    Preview,
     Redo,
     Sign,
     To,
@@ -434,12 +434,12 @@ def test_an_answer_that_takes_long_keeps_no_other_waiting(
 
     monkeypatch.setattr("assoc_hull.page.session.ghost_of_edits", slow)
     page = Page(session).enter()
-    page.ask(Preview(1, [{"op": "pull", "point": POINT, "d": 0.5}]))
+    page.ask(AskPreview(1, [{"op": "pull", "point": POINT, "d": 0.5}]))
     assert seen.wait(30.0)
-    page.ask(Hydrostatics(2))
+    page.ask(AskHydrostatics(2))
     assert page.text("answer")["id"] == 2
-    page.ask(Preview(3, [{"op": "pull", "point": POINT, "d": 0.01}]))
+    page.ask(AskPreview(3, [{"op": "pull", "point": POINT, "d": 0.01}]))
     assert page.text("answer")["id"] == 3
     going.set()
-    page.ask(Preview(4, [{"op": "pull", "point": POINT, "d": 0.02}]))
+    page.ask(AskPreview(4, [{"op": "pull", "point": POINT, "d": 0.02}]))
     assert page.text("answer")["id"] == 4
