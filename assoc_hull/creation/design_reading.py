@@ -21,15 +21,15 @@ from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
 from assoc_hull.arguments import text
 from assoc_hull.creation.design import Design
-from assoc_hull.creation.form_definitions import course
-from assoc_hull.creation.read_courses import (
+from assoc_hull.creation.fitted_courses import (
     DrawnPath,
     PathNode,
     distances,
-    read_halves,
-    read_path,
+    fit_halves,
+    fit_path,
 )
-from assoc_hull.creation.read_sections import DrawnSection, SectionFit, evenly, fit_sections
+from assoc_hull.creation.fitted_sections import DrawnSection, SectionFit, evenly, fit_sections
+from assoc_hull.creation.form_definitions import course
 from assoc_hull.display import ShownAsText
 from assoc_hull.errors import AssocHullError, BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
@@ -310,7 +310,7 @@ class _Reader:
 
     def _laid(self, use: str, path: DrawnPath, tolerance: float, onward: bool) -> FormDefinition:
         """Lay a course along a path; with `onward` it has one ordinate at each abscissa."""
-        nodes, off = read_path(path, tolerance, onward)
+        nodes, off = fit_path(path, tolerance, onward)
         x, y = path.at.T
         aft, _ = _transom(self.net)
         if not use.startswith("flat") and aft is not None and abs(nodes[0].x - aft) < _ON_FLAT:
@@ -393,7 +393,7 @@ class _Reader:
         # A hull that flares all along is narrower at the draught than her breadth.
         full = 0.5 * ship.breadth if pinned else float(y.max())
         ends = tuple((end / half - 1.0, breadth / full) for end, breadth in (aft, fore))
-        line, left = read_halves(
+        line, left = fit_halves(
             "design waterline", "design_waterline", full, x / half - 1.0, y / full,
             (ends[0], ends[1]), level, pinned,
         )  # fmt: skip
@@ -407,7 +407,7 @@ class _Reader:
             (fore[0] / half - 1.0, _not_tiny(self._end_area(fore[0] - _WITHIN) / full)),
         )
         level = _full_part(x / half - 1.0, y / full)
-        areas, _ = read_halves(
+        areas, _ = fit_halves(
             "sectional areas", "sectional_area", full, x / half - 1.0, y / full, ends, level, False,
             np.maximum(self._most(forms, line, x) / full, y / full),
             self._sums(full, level, fore[0]),

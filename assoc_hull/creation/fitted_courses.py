@@ -1,4 +1,4 @@
-"""Courses and curves of two halves, read off curves that were drawn.
+"""Courses and curves of two halves, fitted to curves that were drawn.
 
 A course goes through nodes on the curve, with the angles and curvatures that the curve has there;
 nodes are added until no piece passes the curve by more than a tolerance. A curve of two halves is
@@ -25,8 +25,8 @@ __all__ = [
     "DrawnPath",
     "PathNode",
     "distances",
-    "read_halves",
-    "read_path",
+    "fit_halves",
+    "fit_path",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -162,7 +162,7 @@ _STRAIGHT = 1e-6
 """m: what passes its chord by less is straight."""
 
 
-def read_path(
+def fit_path(
     path: DrawnPath, tolerance: float, onward: bool = False
 ) -> tuple[list[PathNode], FloatArray]:
     """Give nodes of a course through a path, and the distances (n,), m, of the path from it.
@@ -269,7 +269,7 @@ def _piece(path: DrawnPath, low: int, high: int, onward: bool) -> _Piece:
 # Curves of two halves through ordinates at stations.
 
 
-def read_halves(
+def fit_halves(
     name: str, use: str, full: float, x: FloatArray, y: FloatArray,
     ends: tuple[tuple[float, float], tuple[float, float]], level: tuple[float, float],
     pinned: bool, most: FloatArray | None = None,
@@ -348,88 +348,128 @@ def _half(
     `whole` are area and moment up to a place in the parallel part, and that place; or None.
     """
     order = np.argsort(x)
-    x, y, most = x[order], y[order], most[order]
-    place = np.concatenate([[end[0]], x, [top]])
-    height = np.concatenate([[end[1]], y, [1.0]])
-    area = float(np.trapezoid(height, place))
-    centroid = float(np.trapezoid(height * place, place)) / area
-    span = top - end[0]
-    chord = math.hypot(span, 1.0 - end[1])
-    # Stations stand closer where more happens; a share of the span each lets the rest count too.
-    weight = np.sqrt(np.gradient(place)[1:-1] / span) + 0.05 if len(x) else np.empty(0)
+    fit = _HalfFit.of(x[order], y[order], most[order], end, top, room, whole)
+    values = fit.best()
+    p = values[None]
+    left = np.empty(len(x))
+    left[order] = fit.ordinates(p, fit.made(p))[0] - fit.y
+    angle, bend, pace, top_pace, top_bend = values[:5].tolist()
+    area, centroid = (float(each[0]) for each in fit.sums_of(p))
+    return _HalfFound(
+        angle, bend, (math.exp(pace), math.exp(top_pace)), float(fit.full_at(p)[0]), top_bend, area,
+        centroid, left,
+    )  # fmt: skip
 
-    def full_at(p: FloatArray) -> FloatArray:
-        return top + (p[:, 5] if room else 0.0 * p[:, 5])
 
-    def sums_of(p: FloatArray) -> tuple[FloatArray, FloatArray]:
-        if whole is None:
+@attrs.frozen(eq=False)
+class _HalfFit:
+    """The least squares of a half; x ascends.
+
+    Unknowns, (n, 8), are angle (rad) and curvature at the end, logarithms of both tangents,
+    curvature at the top, how far the top is moved, area and centroid.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    most: FloatArray
+    weight: FloatArray
+    end: tuple[float, float]
+    top: float
+    room: float
+    whole: tuple[float, float, float] | None
+    first: FloatArray
+    low: FloatArray
+    high: FloatArray
+
+    @classmethod
+    def of(
+        cls, x: FloatArray, y: FloatArray, most: FloatArray, end: tuple[float, float], top: float,
+        room: float, whole: tuple[float, float, float] | None,
+    ) -> _HalfFit:  # fmt: skip
+        """Lay out the unknowns: where they begin, and between what they stay."""
+        place = np.concatenate([[end[0]], x, [top]])
+        height = np.concatenate([[end[1]], y, [1.0]])
+        area = float(np.trapezoid(height, place))
+        centroid = float(np.trapezoid(height * place, place)) / area
+        span = top - end[0]
+        chord = math.hypot(span, 1.0 - end[1])
+        # Stations stand closer where more happens; a share of the span each lets the rest count.
+        weight = np.sqrt(np.gradient(place)[1:-1] / span) + 0.05 if len(x) else np.empty(0)
+        slope = math.atan2(height[1] - height[0], max(place[1] - place[0], 1e-9))
+        first = np.array([
+            min(slope, 1.5), 0.0, math.log(0.125 * chord), math.log(0.25 * chord), 0.0, 0.0, area,
+            centroid,
+        ])  # fmt: skip
+        # Without a parallel part both halves end at one place, or short of it.
+        slack = (room if room > 1e-8 else 0.0) if room else 1e-9
+        low = np.array([0.0, -60.0, math.log(0.02 * chord), math.log(0.02 * chord), -8.0,
+                        -0.15 * span if room else -1e-9, 0.8 * area, centroid - 0.1])  # fmt: skip
+        high = np.array([1.57, 60.0, math.log(0.5 * chord), math.log(0.5 * chord), 0.0,
+                         slack, 1.2 * area, centroid + 0.1])  # fmt: skip
+        return cls(x, y, most, weight, end, top, room, whole, first, low, high)
+
+    def best(self) -> FloatArray:
+        """Fit from three angles at the end; the unknowns (8,) that leave least."""
+        best = None
+        for angle in (self.first[0], 0.3 * self.first[0], 0.9):
+            begin = self.first.copy()
+            begin[0] = angle
+            found = least_squares(
+                self._off, np.clip(begin, self.low + 1e-12, self.high - 1e-12), self._rates,
+                bounds=(self.low, self.high),
+                x_scale=[0.3, 3.0, 0.3, 0.3, 1.0, 0.05, 0.01, 0.01], max_nfev=150,
+            )  # fmt: skip
+            if best is None or found.cost < best.cost:
+                best = found
+        assert best is not None
+        return np.asarray(best.x)
+
+    def full_at(self, p: FloatArray) -> FloatArray:
+        """Give where the half becomes full."""
+        return self.top + (p[:, 5] if self.room else 0.0 * p[:, 5])
+
+    def sums_of(self, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give area and centroid; of what is held, less the parallel part."""
+        if self.whole is None:
             return p[:, 6], p[:, 7]
-        total, moment, place = whole
-        full = full_at(p)
+        total, moment, place = self.whole
+        full = self.full_at(p)
         size = total - (place - full)
         return size, (moment - 0.5 * (place * place - full * full)) / size
 
-    def made(p: FloatArray) -> FloatArray:
-        start = FormEnd.of(end[0], end[1], p[:, 0], p[:, 1], np.exp(p[:, 2]))
-        finish = FormEnd.of(full_at(p), 1.0, 0.0, p[:, 4], np.exp(p[:, 3]))
-        return form_vertices(start, finish, *sums_of(p))
+    def made(self, p: FloatArray) -> FloatArray:
+        """Give the vertices of the curves."""
+        start = FormEnd.of(*self.end, p[:, 0], p[:, 1], np.exp(p[:, 2]))
+        finish = FormEnd.of(self.full_at(p), 1.0, 0.0, p[:, 4], np.exp(p[:, 3]))
+        return form_vertices(start, finish, *self.sums_of(p))
 
-    def ordinates(p: FloatArray, vertices: FloatArray) -> FloatArray:
+    def ordinates(self, p: FloatArray, vertices: FloatArray) -> FloatArray:
+        """Give the ordinates of the curves at the stations."""
         line = np.einsum("st,ntk->nsk", _SHARES, vertices)
         found = np.array([
-            np.interp(x, np.maximum.accumulate(each[:, 0]), each[:, 1]) for each in line
+            np.interp(self.x, np.maximum.accumulate(each[:, 0]), each[:, 1]) for each in line
         ])  # fmt: skip
-        return np.where(x >= full_at(p)[:, None], 1.0, found)
+        return np.where(self.x >= self.full_at(p)[:, None], 1.0, found)
 
-    def rows(p: FloatArray) -> FloatArray:
-        vertices = np.nan_to_num(made(p), nan=10.0, posinf=10.0, neginf=10.0)
-        got = ordinates(p, vertices)
+    def _rows(self, p: FloatArray) -> FloatArray:
+        """Give what is to be small: misses, curves that turn back or leave 0 to 1, long ways."""
+        vertices = np.nan_to_num(self.made(p), nan=10.0, posinf=10.0, neginf=10.0)
+        got = self.ordinates(p, vertices)
+        span = self.top - self.end[0]
         back = np.minimum(least_rate(vertices, 0) - _ONWARD * span, 0.0)
         over = np.maximum(-least_coordinate(vertices * np.array([1.0, -1.0]), 1) - 1.0, 0.0)
         low = np.minimum(least_coordinate(vertices, 1), 0.0)
-        move = 1e-3 * (p - first) / np.array([1e3, 10.0, 1.0, 1.0, 10.0, 1.0, 1.0, 1.0])
+        move = 1e-3 * (p - self.first) / np.array([1e3, 10.0, 1.0, 1.0, 10.0, 1.0, 1.0, 1.0])
         return np.concatenate([
-            weight * (got - y), 10.0 * np.maximum(got - most, 0.0), 30.0 * back[:, None],
-            30.0 * over[:, None], 30.0 * low[:, None], move,
+            self.weight * (got - self.y), 10.0 * np.maximum(got - self.most, 0.0),
+            30.0 * back[:, None], 30.0 * over[:, None], 30.0 * low[:, None], move,
         ], axis=1)  # fmt: skip
 
-    def off(p: FloatArray) -> FloatArray:
-        return np.asarray(rows(p[None])[0])
+    def _off(self, p: FloatArray) -> FloatArray:
+        return np.asarray(self._rows(p[None])[0])
 
-    def rates(p: FloatArray) -> FloatArray:
+    def _rates(self, p: FloatArray) -> FloatArray:
         # Within the limits: a step inward from the upper ones.
-        step = np.where(p + _STEP < high, _STEP, -_STEP)
-        found = rows(np.concatenate([p[None], p + np.diag(step)]))
+        step = np.where(p + _STEP < self.high, _STEP, -_STEP)
+        found = self._rows(np.concatenate([p[None], p + np.diag(step)]))
         return np.asarray(((found[1:] - found[0]) / step[:, None]).T)
-
-    slope = math.atan2(height[1] - height[0], max(place[1] - place[0], 1e-9))
-    first = np.array([
-        min(slope, 1.5), 0.0, math.log(0.125 * chord), math.log(0.25 * chord), 0.0, 0.0, area,
-        centroid,
-    ])  # fmt: skip
-    # Without a parallel part both halves end at one place, or short of it.
-    slack = (room if room > 1e-8 else 0.0) if room else 1e-9
-    low = np.array([0.0, -60.0, math.log(0.02 * chord), math.log(0.02 * chord), -8.0,
-                    -0.15 * span if room else -1e-9, 0.8 * area, centroid - 0.1])  # fmt: skip
-    high = np.array([1.57, 60.0, math.log(0.5 * chord), math.log(0.5 * chord), 0.0,
-                     slack, 1.2 * area, centroid + 0.1])  # fmt: skip
-    best = None
-    for angle in (first[0], 0.3 * first[0], 0.9):
-        begin = first.copy()
-        begin[0] = angle
-        found = least_squares(
-            off, np.clip(begin, low + 1e-12, high - 1e-12), rates, bounds=(low, high),
-            x_scale=[0.3, 3.0, 0.3, 0.3, 1.0, 0.05, 0.01, 0.01], max_nfev=150,
-        )  # fmt: skip
-        if best is None or found.cost < best.cost:
-            best = found
-    assert best is not None
-    p = best.x[None]
-    left = np.empty(len(x))
-    left[order] = ordinates(p, made(p))[0] - y
-    angle, bend, pace, top_pace, top_bend = best.x[:5].tolist()
-    area, centroid = (float(each[0]) for each in sums_of(p))
-    return _HalfFound(
-        angle, bend, (math.exp(pace), math.exp(top_pace)), float(full_at(p)[0]), top_bend, area,
-        centroid, left,
-    )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Sections read off a hull: the values of form-parameter pieces that lie nearest to drawn sections.
+"""Sections fitted to a hull: the values of form-parameter pieces nearest to drawn sections.
 
 Each section is laid out as the definitions of areas, waterline, contour, deck and flats have it
 where it stands. Angles, curvatures and tangents of its pieces are then those for which points of
@@ -14,7 +14,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.creation.fair_courses import GivenForms
-from assoc_hull.creation.read_courses import distances
+from assoc_hull.creation.fitted_courses import distances
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.form_curves.curve import form_at
 from assoc_hull.model.forms.form_values import Forms
