@@ -80,7 +80,7 @@ def _run(argv: Sequence[str] | None) -> int:
         except (NotSoundError, BrokenPipeError):
             raise
         except Exception as error:  # a traceback is of no use to a designer
-            return _fail(in_shell(explain(error), vars(arguments)), _BAD)
+            return _fail(in_shell(explain(error), arguments.options), _BAD)
     return code
 
 
