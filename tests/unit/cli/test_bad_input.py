@@ -363,6 +363,16 @@ def test_the_file_of_a_report_may_stand_behind_an_option(option: str) -> None:
     assert arranged(["report", option, "r.pdf", "s.hull", *rest]) == want
 
 
+@pytest.mark.parametrize("flag", ["--dry-run", "--json", "--fair", "--compromise", "--replace"])
+def test_a_value_of_a_variation_may_stand_behind_a_flag(flag: str) -> None:
+    """Only what an option takes stays with it."""
+    assert arranged(["vary", "s.hull", flag, "breadth=18"]) == [
+        "vary", "s.hull", flag, "--set", "breadth=18",
+    ]  # fmt: skip
+    kept = ["vary", "s.hull", "--reach", "volume=3", "--name", "b=18"]
+    assert arranged(kept) == kept
+
+
 def test_a_long_note_is_parted_between_words() -> None:
     """Sentences are longer than a line; names stay whole."""
     words = ["a sentence of many words that goes on " * 4, "WL 0.5"]
