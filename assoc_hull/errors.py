@@ -651,7 +651,8 @@ class TooFewFreeError(AssocHullError, ValueError):
     def __str__(self) -> str:
         return (
             f"aim: {self.targets} targets need at least {self.targets} free parameters for an "
-            f"exact answer ({self.free} given); best compromise returned only with exact=False"
+            f"exact answer ({self.free} given); the best compromise is returned only with "
+            "exact=False (--compromise)"
         )
 
 

@@ -13,7 +13,7 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from assoc_hull.cli.commands import make_parser
 from assoc_hull.cli.problems import explain, in_shell
@@ -80,13 +80,15 @@ def _run(argv: Sequence[str] | None) -> int:
         except (NotSoundError, BrokenPipeError):
             raise
         except Exception as error:  # a traceback is of no use to a designer
-            return _fail(in_shell(explain(error), vars(arguments)), _BAD)
+            return _fail(in_shell(explain(error), arguments.options), _BAD)
     return code
 
 
 def arranged(words: Sequence[str]) -> list[str]:
     """Write what was typed as the parsers of commands take it."""
-    return _options_last(_with_axes(words))
+    typed = _with_axes(words)
+    arrange = _ARRANGED.get(typed[0]) if typed else None
+    return typed if arrange is None else arrange(typed)
 
 
 _TAKES_VALUE = ("--out", "--name", "--why", "--wait")
@@ -94,11 +96,7 @@ _TAKES_VALUE = ("--out", "--name", "--why", "--wait")
 
 def _options_last(words: list[str]) -> list[str]:
     """Put options of an edit behind its values, between which they may be typed."""
-    if words[:1] == ["vary"]:
-        return _with_set(words)
-    if words[:1] == ["report"]:
-        return _out_second(words)
-    if words[:1] != ["edit"] or "--" in words:
+    if "--" in words:
         return words
     if any(word.startswith("--") for word in words):
         from assoc_hull.cli.typed_edits import options_as_values
@@ -129,14 +127,23 @@ def _out_second(words: list[str]) -> list[str]:
     return words
 
 
+_WITHOUT_VALUE = ("--compromise", "--dry-run", "--fair", "--json", "--list", "--replace")
+
+
 def _with_set(words: list[str]) -> list[str]:
-    """Let `NAME=VALUE` of a variation stand without `--set`."""
+    """Let `NAME=VALUE` of a variation stand without `--set`, but not where an option takes it."""
     found = list[str]()
     for before, word in zip(["-", *words], words, strict=False):
-        if _PAIR.match(word) and not before.startswith("-"):
+        if _PAIR.match(word) and (before in _WITHOUT_VALUE or not before.startswith("-")):
             found.append("--set")
         found.append(word)
     return found
+
+
+_ARRANGED: dict[str, Callable[[list[str]], list[str]]] = {
+    "edit": _options_last, "report": _out_second, "vary": _with_set,
+}  # fmt: skip
+"""Commands whose words may stand in an order that argparse does not take, and what orders them."""
 
 
 def _with_axes(words: Sequence[str]) -> list[str]:

@@ -51,6 +51,11 @@ class _Parser(argparse.ArgumentParser):
         found, rest = super().parse_known_args(args, namespace)
         if rest:
             self.error(f"unrecognized arguments: {' '.join(rest)}{self._meant(rest)}")
+        if "options" not in found:  # of the command, which is parsed first
+            found.options = {
+                action.dest: max(action.option_strings, key=len)
+                for action in self._actions if action.option_strings
+            }  # fmt: skip
         return found, rest
 
     def _meant(self, rest: Sequence[str]) -> str:

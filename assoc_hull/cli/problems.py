@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import traceback
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from assoc_hull.errors import AssocHullError, BadInputError
@@ -59,41 +59,42 @@ def explain(error: Exception) -> str:
     return re.sub(rf"\S{{{_WORD + 1},}}", _ends, _explained(error))
 
 
-def in_shell(text: str, options: Collection[str]) -> str:
+def in_shell(text: str, options: Mapping[str, str]) -> str:
     """Write names of Python arguments in a message as options of the command.
 
     Parameters
     ----------
     text : str
         A message.
-    options : collection of str
-        The arguments of the command, as Python names.
+    options : mapping of str to str
+        How each option of the command is typed, by its name in Python; no values that stand
+        without an option.
 
     Examples
     --------
     >>> from assoc_hull.cli.problems import in_shell
-    >>> in_shell("give length= (Lpp in m), or zero='ap' or 'fp'", ["length", "zero"])
-    'give --length (Lpp in m), or --zero ap or fp'
+    >>> options = {"length": "--length", "zero": "--zero", "accept": "--accept"}
+    >>> in_shell("give length= (Lpp in m), or zero='ap' or 'fp', or accept=True", options)
+    'give --length (Lpp in m), or --zero ap or fp, or --accept'
     """
 
     def write(found: re.Match[str]) -> str:
-        name, value = found["name"], found["value"] or ""
-        flag = "--" + name.replace("_", "-")
+        flag, value = options.get(found["name"]), found["value"] or ""
         # Where a message has words for the shell, the unit may be another there.
-        if name not in options or flag in text:
+        if flag is None or flag in text:
             return found[0]
         if value.startswith(("[", "{")):
             return f"{flag} {'NAME=VALUE' if value[0] == '{' else 'NAME'}"
-        return f"{flag} {value.replace(chr(39), '')}" if value else flag
+        return flag if value in ("", "True") else f"{flag} {value.replace(chr(39), '')}"
 
     return _KEYWORD.sub(write, text)
 
 
 _KEYWORD = re.compile(
-    r"\b(?P<name>[a-z]\w*)=(?:(?P<value>'[\w-]+'(?: or '[\w-]+')*|\[names\]|\{name: value\})"
-    r"|(?=[\s,;)]|$))"
+    r"(?<![\w'=.-])(?P<name>[a-z]\w*)=(?:"
+    r"(?P<value>'[\w-]+'(?: or '[\w-]+')*|\[names\]|\{name: value\}|True\b)|(?=[\s,;)]|$))"
 )
-"""An argument as messages of the library write it: bare, with words, names, or pairs."""
+"""An argument as messages of the library write it: bare, with words, names, pairs, or True."""
 
 
 def _ends(word: re.Match[str]) -> str:

@@ -1,4 +1,4 @@
-"""Courses and curves of two halves, read off curves that were drawn.
+"""Courses and curves of two halves, fitted to curves that were drawn.
 
 A course goes through nodes on the curve, with the angles and curvatures that the curve has there;
 nodes are added until no piece passes the curve by more than a tolerance. A curve of two halves is

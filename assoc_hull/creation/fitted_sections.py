@@ -1,4 +1,4 @@
-"""Sections read off a hull: the values of form-parameter pieces that lie nearest to drawn sections.
+"""Sections fitted to a hull: the values of form-parameter pieces nearest to drawn sections.
 
 Each section is laid out as the definitions of areas, waterline, contour, deck and flats have it
 where it stands. Angles, curvatures and tangents of its pieces are then those for which points of

@@ -37,8 +37,8 @@ from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.tables import Particulars
 from assoc_hull.shipped.yacht_design import (
     contour_of,
-    levels_of,
-    rounded,
+    drawn_design,
+    drawn_particulars,
     section_courses,
     section_values,
 )
@@ -65,22 +65,13 @@ def draw_trawler(
 
     Raises BadInputError where no fair lines have these numbers.
     """
-    ship = Particulars(
-        name or f"Trawler {six.length:g} m",
-        six.length, six.breadth, six.depth, six.draught, "closed",
-    )  # fmt: skip
+    ship = drawn_particulars("Trawler", six, name)
     made = _halves(ship, six, cm, cw)
     shape = _shape(ship, made)
     profile = _profile(ship, shape)
     forms = Forms.of([made.areas, made.line, profile], ship)
-    design = Design(
-        ship,
-        [made.areas, made.line, profile, *_deck(ship, profile),
-         *_courses(ship, profile, forms, shape)],
-        stations=_stations(ship, profile),
-        waterlines=levels_of(ship), buttocks=rounded(0.5 * ship.breadth * np.array(_BUTTOCKS)),
-        transom=profile.value("transom_x"),
-    )  # fmt: skip
+    rest = [*_deck(ship, profile), *_courses(ship, profile, forms, shape)]
+    design = drawn_design(ship, [made.areas, made.line, profile, *rest], _stations(ship, profile))
     given = tuple(n for n, value in (("CM", cm), ("CW", cw)) if value is not None)
     return TypedDesign(design, _notes(ship, made, design, given), cw is not None, drawn=True)
 
@@ -317,8 +308,6 @@ _INNER = (
     17.0, 17.5, 18.0, 18.5, 19.0, 19.5, 19.75,
 )  # fmt: skip
 """None at the ends of the waterline, where sections come to nothing below it."""
-
-_BUTTOCKS = (0.2, 0.4, 0.6, 0.8)
 
 
 def _stations(ship: Particulars, profile: FormDefinition) -> tuple[float, ...]:

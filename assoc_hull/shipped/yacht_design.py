@@ -40,8 +40,8 @@ from assoc_hull.model.forms.two_halves import half_number
 from assoc_hull.model.tables import Particulars
 
 __all__ = [
-    "contour_of", "draw_yacht", "levels_of", "rounded", "section_courses", "section_values",
-    "yacht_design",
+    "contour_of", "draw_yacht", "drawn_design", "drawn_particulars", "rounded", "section_courses",
+    "section_values", "yacht_design",
 ]  # fmt: skip
 
 _CALL = "in a yacht from six numbers"
@@ -67,23 +67,38 @@ def draw_yacht(
 
     Raises BadInputError where no fair lines have these numbers.
     """
-    ship = Particulars(
-        name or f"Yacht canoe body {six.length:g} m",
-        six.length, six.breadth, six.depth, six.draught, "closed",
-    )  # fmt: skip
+    ship = drawn_particulars("Yacht canoe body", six, name)
     made = _coefficients(six, cm, cw)
     areas, line, entry = _halves(ship, made)
     profile = _profile(ship, _depths(ship, areas, line, made.cm))
     forms = Forms.of([areas, line, profile], ship)
-    design = Design(
-        ship,
-        [areas, line, profile, *_deck(ship, profile, forms), *_courses(ship, profile, forms)],
-        stations=_stations(ship, profile),
-        waterlines=levels_of(ship), buttocks=rounded(0.5 * ship.breadth * np.array(_BUTTOCKS)),
-        transom=profile.value("transom_x"),
-    )  # fmt: skip
+    rest = [*_deck(ship, profile, forms), *_courses(ship, profile, forms)]
+    design = drawn_design(ship, [areas, line, profile, *rest], _stations(ship, profile))
     notes = _notes(ship, made, entry, design)
     return TypedDesign(design, notes, cw is not None, drawn=True)
+
+
+# --------------------------------------------------------------------------------------
+# What all types have that are drawn for their numbers.
+
+
+def drawn_particulars(kind: str, six: SixNumbers, name: str | None) -> Particulars:
+    """Give the particulars of a ship of a kind; her name says kind and length if none is given."""
+    return Particulars(
+        name or f"{kind} {six.length:g} m",
+        six.length, six.breadth, six.depth, six.draught, "closed",
+    )  # fmt: skip
+
+
+def drawn_design(
+    ship: Particulars, definitions: Sequence[FormDefinition], stations: Sequence[float]
+) -> Design:
+    """Make a design of areas, waterline, profile and what follows them, with a transom."""
+    return Design(
+        ship, definitions, stations=stations, waterlines=levels_of(ship),
+        buttocks=rounded(0.5 * ship.breadth * np.array(_BUTTOCKS)),
+        transom=definitions[2].value("transom_x"),
+    )  # fmt: skip
 
 
 # --------------------------------------------------------------------------------------

@@ -48,11 +48,20 @@ def test_a_file_that_cannot_be_written_is_told_in_a_sentence(
     box = opened(hand, "Export")
     with monkeypatch.context() as patch:
         patch.setattr("assoc_hull.page.session.write_export", missing)
+        handed = list[object]()
+
+        def taken(file: object) -> None:
+            handed.append(file)
+
+        hand.page.on("download", taken)
         box.get_by_text("Write the file").click()
         box.get_by_text("assoc-hull[plot]").wait_for()
+        assert handed == []
+        assert "matplotlib" in box.inner_text()
     box.locator("select").select_option("csv")
-    with hand.page.expect_download():
+    with hand.page.expect_download() as download:
         box.get_by_text("Write the file").click()
+    assert download.value.suggested_filename.endswith(".csv")
 
 
 def test_a_second_window_shows_the_edits_of_the_other_under_its_name(

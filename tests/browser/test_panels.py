@@ -144,6 +144,9 @@ def test_a_hull_that_is_sound_is_said_to_be(open_page: Open, hull: ah.Hull) -> N
     box = opened(hand, "Problems")
     box.get_by_text("Check the hull").click()
     box.get_by_text("Nothing is wrong.").wait_for()
+    assert hull.check() == ()
+    assert box.locator("summary").inner_text().split() == ["Problems"]
+    assert box.locator("button.link").count() == 0
 
 
 def test_what_was_refused_last_stands_among_the_problems(open_page: Open, hull: ah.Hull) -> None:

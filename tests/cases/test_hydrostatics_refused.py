@@ -263,17 +263,18 @@ def test_two_routes_agree_within_what_is_stated(
 ) -> None:
     """Sections along the ship, and waterplanes upward; the values in brackets are stated."""
     hull, draught = ships[name]
-    agree(hull, draught, name)
+    assert disagreements(hull, draught, name) == []
 
 
 def test_two_routes_agree_on_the_container_ship(dtc: ah.Hull) -> None:
     """As on all examples."""
-    agree(dtc, 14.5, "DTC")
+    assert disagreements(dtc, 14.5, "DTC") == []
 
 
-def agree(hull: ah.Hull, draught: float, name: str) -> None:
-    """Compare two routes to volume and centre, at even keel and inclined."""
+def disagreements(hull: ah.Hull, draught: float, name: str) -> list[str]:
+    """What differs by more than is stated, or the volume by 2e-4, at even keel and inclined."""
     body, ship = flotation(hull.state), hull.particulars
+    beyond = []
     for trim, heel in ((0.0, 0.0), (0.002 * ship.length, 5.0)):
         draughts = draught + 0.5 * trim, draught - 0.5 * trim
         found = hull.hydrostatics(draughts=draughts, heel_deg=heel)
@@ -287,11 +288,15 @@ def agree(hull: ah.Hull, draught: float, name: str) -> None:
         }
         words = [f"{key} {off:+.1e} ({found.error[key]:.1e})" for key, off in away.items()]
         print(f"\n{name}, heel {heel:g} deg: V {found.volume:.3f} m3,", ", ".join(words))
-        assert abs(away["volume"]) <= 2e-4 * volume
         for key, off in away.items():
-            stated = found.error[key]
-            assert stated is not None
-            assert abs(off) <= stated + 1e-12 * abs(getattr(found, key)), key
+            most = found.error[key]
+            assert most is not None, key
+            most += 1e-12 * abs(getattr(found, key))
+            if key == "volume":
+                most = min(most, 2e-4 * volume)
+            if abs(off) > most:
+                beyond.append(f"{key} at heel {heel:g} deg: {off:+.2e}, at most {most:.2e}")
+    return beyond
 
 
 @pytest.mark.parametrize(

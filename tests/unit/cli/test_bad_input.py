@@ -13,8 +13,11 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.cli import arranged, inspection, main
+from assoc_hull.cli.command_table import COMMANDS
+from assoc_hull.cli.commands import make_parser
 from assoc_hull.cli.hull_words import wrap_text
 from assoc_hull.cli.problems import in_shell
+from tests.unit.test_errors import SAMPLES
 
 Edits = Callable[[object], Path]
 
@@ -302,18 +305,53 @@ def test_arguments_of_the_library_are_told_as_options(
     assert "give --station-zero ap or fp" in error_of([*command, "--length", "20"], capsys)
 
 
+OPTIONS = {each: "--" + each.replace("_", "-") for each in ("free", "noise", "on_error", "accept")}
+
+
 @pytest.mark.parametrize(
     ("text", "typed"),
     [
         ("give free=[names]", "give --free NAME"),
+        ("or accept=True.", "or --accept."),
         ("noise=0.001 is 1 mm; in the shell --noise 1", None),
         ("with on_error='report' (--on-error report)", None),
         ("give other=", None),
+        ("column 'free=' of a.csv", None),
+        ("the file ship-free= is no hull", None),
     ],
 )
 def test_only_bare_arguments_of_the_command_are_rewritten(text: str, typed: str | None) -> None:
     """What a message says of the shell itself, and arguments of no option, stay."""
-    assert in_shell(text, ["free", "noise", "on_error"]) == (typed or text)
+    assert in_shell(text, OPTIONS) == (typed or text)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_error_is_told_in_options_that_its_command_has(name: str) -> None:
+    """A message changes only where it names an argument, and then to an option of the command."""
+    main_parser: Any = make_parser([name])
+    command = main_parser._subparsers._group_actions[0].choices[name]
+    typed = {
+        each.dest: max(each.option_strings, key=len)
+        for each in command._actions
+        if each.option_strings
+    }
+    for error, _, _ in SAMPLES:
+        words = zip(str(error).split(" "), in_shell(str(error), typed).split(" "), strict=True)
+        changed = [each for each in words if each[0] != each[1]]
+        assert changed in ([], [("wait=", "--wait")])
+
+
+def test_a_compromise_is_named_as_it_is_typed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """More targets than what is free: the message has the option, and that works."""
+    file = tmp_path / "w.hull"
+    assert main(["example", "wigley", "-o", str(file)]) == 0
+    words = ["vary", str(file), "--reach", "volume=2800", "--reach", "lcb=50.1", "--free",
+             "breadth", "--dry-run"]  # fmt: skip
+    capsys.readouterr()
+    assert "(--compromise)" in error_of([*words], capsys)
+    assert main([*words, "--compromise"]) == 0
 
 
 @pytest.mark.parametrize("option", ["-o", "--out"])
@@ -323,6 +361,16 @@ def test_the_file_of_a_report_may_stand_behind_an_option(option: str) -> None:
     want = ["report", "s.hull", "r.pdf", *rest]
     assert arranged(["report", "s.hull", *rest, option, "r.pdf"]) == want
     assert arranged(["report", option, "r.pdf", "s.hull", *rest]) == want
+
+
+@pytest.mark.parametrize("flag", ["--dry-run", "--json", "--fair", "--compromise", "--replace"])
+def test_a_value_of_a_variation_may_stand_behind_a_flag(flag: str) -> None:
+    """Only what an option takes stays with it."""
+    assert arranged(["vary", "s.hull", flag, "breadth=18"]) == [
+        "vary", "s.hull", flag, "--set", "breadth=18",
+    ]  # fmt: skip
+    kept = ["vary", "s.hull", "--reach", "volume=3", "--name", "b=18"]
+    assert arranged(kept) == kept
 
 
 def test_a_long_note_is_parted_between_words() -> None:

@@ -221,7 +221,7 @@ def test_fewer_free_parameters_than_targets_need_leave_for_a_compromise() -> Non
         aim(ship, changed(ship))
     assert str(caught.value) == (
         "aim: 3 targets need at least 3 free parameters for an exact answer (2 given); "
-        "best compromise returned only with exact=False"
+        "the best compromise is returned only with exact=False (--compromise)"
     )
     assert ship.looks == 0
     found = aim(ship, changed(ship), exact=False)
