@@ -24,7 +24,7 @@ _LEAST = 1e-4
 
 
 def describe_fairness(hull: Hull) -> dict[str, Any]:
-    """Give the waviest lines first, how far (m) battens spring there, and points that look wrong."""
+    """Give the waviest lines first, how far (m) battens spring there, and what points look wrong."""
     found = hull.fairness()
     wavy = [
         (record, batten) for record, batten in zip(found.records, found.battens, strict=True)

@@ -84,7 +84,7 @@ export class Asker {
     this.timer = setTimeout(() => {
       if (store.held) return void (this.key = "");
       load();
-      this.quiet = !this.led; // what was opened is led to, what is renewed is not
+      this.quiet = !this.led; // renewed unasked
       this.led = false;
     }, PAUSE);
   }
