@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Mapping
 from typing import Any
 
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
@@ -57,26 +58,36 @@ def _areas(hull: Hull) -> list[list[float]]:
     return [found.x.tolist(), found.area[0].tolist()]
 
 
-def describe_why(why: Why) -> dict[str, Any]:
-    """Give the causes of a change as a tree: each with its name, and what happened to it."""
-    tree = _cause(why)
+def describe_why(why: Why, moves: Mapping[str, tuple[float, float]]) -> dict[str, Any]:
+    """Give the causes of a change as a tree: each with its name, and what happened to it.
+
+    ``moved`` and ``slid`` are the movement off the hull and along it (m), of `moves` by key.
+    """
+
+    def far(each: Why) -> float:
+        return moves.get(each.object, (0.0, 0.0))[0]
+
+    tree = _cause(why, moves)
     waiting, opened, room = deque([(why, tree)]), set[str](), _ALL
     while waiting:  # the nearest causes first, so that the farthest are those that are counted
         each, told = waiting.popleft()
         if each.object in opened:
             continue
         opened.add(each.object)
+        largest = sorted(each.causes, key=lambda cause: -far(cause))[: min(_MOST, room)]
         shown = [
-            cause for number, cause in enumerate(each.causes[: min(_MOST, room)])
-            if number == 0 or cause.moved is None or cause.moved >= _SLIGHT
+            cause for number, cause in enumerate(largest)
+            if number == 0 or cause.moved is None or far(cause) >= _SLIGHT
         ]  # fmt: skip
         room -= len(shown)
         told["left"] = each.left + len(each.causes) - len(shown)
-        told["causes"] = [_cause(cause) for cause in shown]
+        told["causes"] = [_cause(cause, moves) for cause in shown]
         waiting.extend(zip(shown, told["causes"], strict=True))
     return {"edit": why.edit, "step": why.step, "because": why.because, "tree": tree}
 
 
-def _cause(why: Why) -> dict[str, Any]:
-    return {"name": why.name, "what": why.what, "moved": why.moved, "left": 0,
+def _cause(why: Why, moves: Mapping[str, tuple[float, float]]) -> dict[str, Any]:
+    moved, slid = moves.get(why.object, (why.moved, 0.0))
+    return {"name": why.name, "what": why.what, "moved": moved, "left": 0,
+            "slid": slid if slid >= _SLIGHT else None,
             "stopped": list(why.stopped[:_STOPS]), "causes": []}  # fmt: skip

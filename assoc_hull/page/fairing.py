@@ -24,7 +24,7 @@ _LEAST = 1e-4
 
 
 def describe_fairness(hull: Hull) -> dict[str, Any]:
-    """Give the waviest lines first, how far (m) battens spring there, and odd points."""
+    """Give the waviest lines first, how far (m) battens spring there, and points out of line."""
     found = hull.fairness()
     wavy = [
         (record, batten) for record, batten in zip(found.records, found.battens, strict=True)

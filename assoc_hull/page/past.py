@@ -11,12 +11,16 @@ import numpy as np
 
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain.compare_states import compare_states, state_at
+from assoc_hull.edit.hull_normals import normals_at
 from assoc_hull.edit.shapes import joined
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.tables import HullState
 from assoc_hull.page.wire import Frame, FrameKind
 
-__all__ = ["describe_steps", "ghost_of_step", "require_own_steps", "require_step", "state_of_step"]
+__all__ = [
+    "describe_steps", "ghost_of_step", "movements_of_step", "require_own_steps", "require_step",
+    "state_of_step",
+]  # fmt: skip
 
 _MOST = 200
 """So many steps are listed, the newest ones."""
@@ -70,6 +74,30 @@ def state_of_step(document: Document, number: int) -> HullState:
     """Give the hull as it was after a step, as a copy for a reader."""
     require_step(document, number, "comparing")
     return state_at(document, number)
+
+
+def movements_of_step(document: Document, number: int) -> dict[str, tuple[float, float]]:
+    """Give by key how far (m) a step moved points off the hull, and how far they slid on it.
+
+    A curve has the largest movement of its points, and no slide.
+    """
+    now = state_at(document, number)
+    then = state_at(document, document.steps[number].parent)
+    both = np.intersect1d(then.live("rows"), now.live("rows"))
+    way = now.rows.xyz[both] - then.rows.xyz[both]
+    rows, way = both[way.any(axis=1)], way[way.any(axis=1)]
+    normal, size = normals_at(now, rows), np.linalg.norm(way, axis=1)
+    # Where no normal is known all of it is movement.
+    off = np.where(normal.any(axis=1), np.abs((way * normal).sum(axis=1)), size)
+    slid = np.sqrt(np.maximum(size**2 - off**2, 0.0))
+    found = dict[str, tuple[float, float]]()
+    for row, one, other in zip(rows.tolist(), off.tolist(), slid.tolist(), strict=True):
+        found[str(now.rows.key[row])] = one, other
+        for curve in now.rows.curve[row].tolist():
+            if curve >= 0:
+                key = str(now.curves.key[curve])
+                found[key] = max(one, found.get(key, (0.0, 0.0))[0]), 0.0
+    return found
 
 
 def ghost_of_step(then: HullState, now: HullState) -> tuple[Frame, dict[str, Any]]:

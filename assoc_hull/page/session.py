@@ -63,6 +63,7 @@ from assoc_hull.page.messages import (
 from assoc_hull.page.past import (
     describe_steps,
     ghost_of_step,
+    movements_of_step,
     require_own_steps,
     require_step,
     state_of_step,
@@ -503,7 +504,9 @@ class Session:
         _answer(client, message.id, describe_steps(self.hull.document))
 
     def _why(self, client: Client, message: AskWhy) -> None:
-        _answer(client, message.id, describe_why(self.hull.why(message.of)))
+        found, document = self.hull.why(message.of), self.hull.document
+        moved = {} if found.edit is None else movements_of_step(document, found.step)
+        _answer(client, message.id, describe_why(found, moved))
 
     def _hydrostatics(self, client: Client, message: AskHydrostatics) -> None:
         opening = self._opening

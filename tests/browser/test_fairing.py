@@ -123,7 +123,7 @@ def test_a_placed_point_that_is_dragged_leads_its_line(open_page: Open, hull: ah
 def test_a_wavy_line_is_listed_with_what_its_batten_does_where_it_leads(
     open_page: Open, hull: ah.Hull
 ) -> None:
-    """The figure of a row is that of the place the row leads to; after an edit the list is old."""
+    """The figure of a row is that of its place; a list of before an edit is old."""
     hand = open_page(hull)
     box = hand.page.locator("details:has(h2:text-is('Fair'))")
     box.locator("summary").click()

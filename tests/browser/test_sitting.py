@@ -1,6 +1,7 @@
 """What a person who fairs a hull in one sitting relies on: nothing is lost, every figure is one."""
 
 import re
+from collections.abc import Callable
 
 import assoc_hull as ah
 from tests.browser.conftest import Hand, Open
@@ -76,7 +77,8 @@ def test_no_step_is_lost_while_an_edit_is_being_made(open_page: Open, hull: ah.H
         steps = [re.search(r" by (-?[\d.]+) mm$", each.name) for each in hull.history]
         return sum(float(each[1]) for each in steps if each)
 
-    for press in (more.click, lambda: hand.page.keyboard.press("ArrowUp")):
+    presses: list[Callable[[], None]] = [more.click, lambda: hand.page.keyboard.press("ArrowUp")]
+    for press in presses:
         hand.page.locator(".view-body canvas").last.focus()
         for _ in range(5):
             press()

@@ -367,9 +367,8 @@ def _tell(edit: Transaction, work: TransformationState, added: int, before: Part
         key = str(state.lines.key[line])
         (pending.carried if work.driver[line] else pending.cut_again).append(key)
     for line, away in sorted(work.planes.bent.items()):
-        pending.notes.append(
-            f"{state.lines.name[line]} is a curve in space now, {away:.3g} m out of its plane"
-        )
+        far = "less than 0.1 mm" if away < 5e-5 else f"{1e3 * away:.1f} mm"
+        pending.notes.append(f"{state.lines.name[line]} is a curve in space now, {far} off a plane")
     if added:
         pending.notes.append(f"{added} adopted points hold the drivers to their images")
     size = state.particulars

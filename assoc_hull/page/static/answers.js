@@ -96,7 +96,7 @@ export class Past extends Asker {
   }
 }
 
-/** @typedef {{name: string, what: string, moved: number | null, left: number, stopped: string[], causes: Cause[]}} Cause */
+/** @typedef {{name: string, what: string, moved: number | null, slid: number | null, left: number, stopped: string[], causes: Cause[]}} Cause */
 
 export class WhyPanel extends Asker {
   /** @param {import("./page.js").Page} page @param {HTMLElement} box */
@@ -132,7 +132,7 @@ export class WhyPanel extends Asker {
 
   /** @param {Cause} cause */
   #item(cause) {
-    const item = document.createElement("li"), moved = cause.moved === null ? "" : `, moved ${millimetres(cause.moved)}`;
+    const item = document.createElement("li"), moved = (cause.moved === null ? "" : `, moved ${millimetres(cause.moved)}`) + (cause.slid ? `, slid ${millimetres(cause.slid)}` : "");
     item.append(link(cause.name, () => this.page.find(cause.name)), ` ${cause.what}${moved}`);
     const below = document.createElement("ul");
     for (const each of cause.causes) below.append(this.#item(each));

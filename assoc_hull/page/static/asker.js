@@ -48,8 +48,8 @@ export class Asker {
     this.box = box;
     this.asked = this.ghost = 0;
     this.key = "";
-    /** Whether somebody has opened the panel, and whether an answer comes unasked. */
-    this.led = this.quiet = false;
+    /** Whether the next answer is to be brought into view: what is renewed must not jump. */
+    this.led = false;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
     this.words = paragraph("");
@@ -62,7 +62,6 @@ export class Asker {
   /** @param {object} message @param {string} words */
   ask(message, words) {
     this.page.keys.finish(); // or the server would let go of what is in hand
-    this.quiet = false;
     this.asked = this.page.request(message);
     this.words.textContent = words;
   }
@@ -81,17 +80,13 @@ export class Asker {
     if (!this.open || store.connection !== "open" || store.held || !store.net || key === this.key) return;
     this.key = key;
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => {
-      if (store.held) return void (this.key = "");
-      load();
-      this.quiet = !this.led; // what was opened is led to, what is renewed is not
-      this.led = false;
-    }, PAUSE);
+    this.timer = setTimeout(() => store.held ? this.key = "" : load(), PAUSE);
   }
 
-  /** Brings an answer that was asked for into view. */
+  /** Brings the first answer into view. */
   bring() {
-    if (!this.quiet) this.box.closest("details")?.scrollIntoView({block: "nearest"});
+    if (this.led) this.box.closest("details")?.scrollIntoView({block: "nearest"});
+    this.led = false;
   }
 
   /** The server has gone: nothing is answered any more, and another may not be at the same state. */

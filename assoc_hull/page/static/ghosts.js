@@ -168,6 +168,7 @@ export class Vary extends Asker {
 
   all() {
     this.ask({t: "parameters"}, "Looking …");
+    this.led = true;
   }
 
   #chosen() { return this.found.find(({name}) => name === this.choice.value); }

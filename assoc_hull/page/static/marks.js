@@ -255,7 +255,7 @@ export function drawLabels(view, g, ink) {
   const of = (/** @type {string} */ family) => net.lines.filter((line) => line.family === family && line.offset !== null && line.axis !== null);
   const left = places.left = Math.max(view.at(view.kind === "body" ? 0 : x0, y1, 0, -1)[0] - 8, 40);
   const foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
-  places.put(view.kind === "body" ? "BTK" : "ST", left, foot + 12, "right", ink.soft); // first: no label may take the place of an axis' name
+  places.put(view.kind === "body" ? "BTK" : "ST", left, foot + 12, "right", ink.soft); // first, or a label has its place
   if (view.kind !== "half") {
     places.put("DWL", left, view.at(0, 0, ship.draught, 1)[1], "right", ink.water);
     places.put("BL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);

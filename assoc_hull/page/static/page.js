@@ -371,7 +371,7 @@ export class Page {
     this.back = way === "undo";
     if (this.back && this.shower && !this.applying) {
       this.dropGhost();
-      return this.say("The ghost is gone; nothing was made. Undo again takes back the last edit.");
+      return this.say("The ghost is gone; nothing was made. Undo takes back the last edit.");
     }
     this.turning = this.request({t: way});
   }

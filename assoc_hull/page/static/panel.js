@@ -27,7 +27,7 @@ export class Panel {
       const box = document.createElement("details"), head = document.createElement("summary"), heading = document.createElement("h2"), body = document.createElement("div");
       box.open = OPEN.includes(title);
       box.ontoggle = () => {
-        const asker = this.askers.find((each) => each.box === body);
+        const asker = [this.why, this.numbers].find((each) => each.box === body);
         if (asker) asker.led = box.open;
         page.store.changed("panel");
       };

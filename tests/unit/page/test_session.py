@@ -30,6 +30,7 @@ from assoc_hull.page.messages import (
     To,
     Undo,
     Vary,
+    Why,
 )
 from assoc_hull.page.session import Session
 from assoc_hull.page.wire import Frame, FrameKind, unpack
@@ -443,3 +444,29 @@ def test_an_answer_that_takes_long_keeps_no_other_waiting(
     going.set()
     page.ask(AskPreview(4, [{"op": "pull", "point": POINT, "d": 0.02}]))
     assert page.text("answer")["id"] == 4
+
+
+def test_why_tells_movement_off_the_hull_apart_from_slides(page: Page, hull: ah.Hull) -> None:
+    """Where a pull is felt most points move by what was asked; how far they slid stands beside."""
+    hull.apply("fuller", [{"op": "pull", "point": POINT, "d": 0.02, "radius": [15, 5]}])
+    page.ask(Why(71, "ST 16"))
+    told = page.wait(lambda each: isinstance(each, dict) and each.get("id") == 71)["value"]["tree"]
+    first = told["causes"][0]
+    assert (first["name"], round(first["moved"], 5)) == (POINT, 0.02)
+    assert first["slid"] > 1e-3
+    assert round(told["moved"], 5) == 0.02
+    assert told["slid"] is None
+    moved = [each["moved"] for each in told["causes"]]
+    assert moved == sorted(moved, reverse=True)
+    assert told["left"] > 0
+
+
+def test_parameters_are_listed_without_limits_and_one_with_its_own(page: Page) -> None:
+    """Limits of all take seconds, the list none."""
+    page.ask(Parameters(72))
+    listed = page.wait(lambda each: isinstance(each, dict) and each.get("id") == 72)["value"]
+    assert {(each["low"], each["high"]) for each in listed} == {(None, None)}
+    page.ask(Parameters(73, "breadth"))
+    found = page.wait(lambda each: isinstance(each, dict) and each.get("id") == 73)["value"]
+    limits = {each["name"]: each["low"] for each in found if each["low"] is not None}
+    assert list(limits) == ["breadth"]
