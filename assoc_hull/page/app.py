@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from assoc_hull.page.connection import Connection
-from assoc_hull.page.dropped import MOST_BYTES, read_dropped
+from assoc_hull.page.files import MOST_BYTES, read_dropped
 from assoc_hull.page.session import Session
 from assoc_hull.plot.sheet.paper import FAMILY_COLOURS
 

@@ -32,8 +32,15 @@ from assoc_hull.model.address import address
 from assoc_hull.model.objects import Point
 from assoc_hull.page.answers import describe_hydrostatics, describe_why
 from assoc_hull.page.describe import describe_net, describe_state, net_words
-from assoc_hull.page.fairing import describe_fairness, ghost_of_edits, ghost_of_window
 from assoc_hull.page.files import write_export
+from assoc_hull.page.ghosts import (
+    Ghost,
+    describe_fairness,
+    describe_parameters,
+    ghost_of_edits,
+    ghost_of_variant,
+    ghost_of_window,
+)
 from assoc_hull.page.messages import (
     Apply,
     AskFairness,
@@ -69,7 +76,6 @@ from assoc_hull.page.past import (
     state_of_step,
 )
 from assoc_hull.page.spare_memory import SpareMemory
-from assoc_hull.page.variants import Ghost, describe_parameters, ghost_of_variant
 from assoc_hull.page.wire import Frame, FrameKind, pack
 
 __all__ = ["Client", "Session"]

@@ -10,8 +10,7 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.page.app import _told_of
-from assoc_hull.page.dropped import read_dropped
-from assoc_hull.page.files import write_export
+from assoc_hull.page.files import read_dropped, write_export
 from tests.conftest import Shipped
 
 

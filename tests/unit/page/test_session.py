@@ -13,7 +13,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.drag import Drag, Live
-from assoc_hull.page.fairing import ghost_of_edits
+from assoc_hull.page.ghosts import ghost_of_edits
 from assoc_hull.page.messages import (
     Apply,
     AskHydrostatics,
