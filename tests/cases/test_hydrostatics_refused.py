@@ -196,7 +196,7 @@ def supply_vessel(x: float, z: float) -> float:
     rise = min((z - keel) / (1.5 + 0.5 * aft + 3.5 * fore**1.2), 1.0)
     round_ = flat + (1.0 - flat) * (1.0 - (1.0 - rise) ** 2.2) ** 0.5
     plan = (1.0 - 0.05 * aft**2) * (1.0 - (fore / (0.97 + 0.06 * z / 6.5)) ** 2.2)
-    return 7.0 * max(plan, 0.0) * (round_ if z > keel or flat else 0.0)
+    return float(7.0 * max(plan, 0.0) * (round_ if z > keel or flat else 0.0))
 
 
 def raked_barge(x: float, z: float) -> float:
