@@ -18,6 +18,7 @@ from assoc_hull.page.messages import (
     Apply,
     AskHydrostatics,
     AskPreview,
+    AskWhy,
     Begin,
     Cancel,
     Check,
@@ -30,7 +31,6 @@ from assoc_hull.page.messages import (
     To,
     Undo,
     Vary,
-    Why,
 )
 from assoc_hull.page.session import Session
 from assoc_hull.page.wire import Frame, FrameKind, unpack
@@ -449,7 +449,7 @@ def test_an_answer_that_takes_long_keeps_no_other_waiting(
 def test_why_tells_movement_off_the_hull_apart_from_slides(page: Page, hull: ah.Hull) -> None:
     """Where a pull is felt most points move by what was asked; how far they slid stands beside."""
     hull.apply("fuller", [{"op": "pull", "point": POINT, "d": 0.02, "radius": [15, 5]}])
-    page.ask(Why(71, "ST 16"))
+    page.ask(AskWhy(71, "ST 16"))
     told = page.wait(lambda each: isinstance(each, dict) and each.get("id") == 71)["value"]["tree"]
     first = told["causes"][0]
     assert (first["name"], round(first["moved"], 5)) == (POINT, 0.02)
