@@ -370,6 +370,8 @@ class Work:
         carried = np.array(sorted(self.pending.held), np.int64)
         held = Node.point(carried)
         blocked = _blocked_nodes(self.network, self.state.failed)
+        # What was blocked until now may be so no more, where this edit has made it of other things.
+        freed = np.union1d(blocked, _marked_nodes(self.state))
         result = run_update(
             self.network, seeds, self.journal, self.settings.policy,
             also=self._also(curves), held=np.concatenate([held, blocked]),
@@ -378,9 +380,8 @@ class Work:
         self.failed |= result.failed
         self._refuse_unmade(result)
         _note_states(self.network, result, self.journal)
-        freed = blocked
-        if len(blocked):
-            freed = np.setdiff1d(blocked, _blocked_nodes(self.network, self.state.failed))
+        if len(freed):
+            freed = np.setdiff1d(freed, _blocked_nodes(self.network, self.state.failed))
         if len(freed):
             self.passes.append(
                 run_update(
@@ -455,6 +456,17 @@ def _blocked_nodes(network: HullNetwork, failed: tuple[int, ...]) -> IntArray:
     return found
 
 
+def _marked_nodes(state: HullState) -> IntArray:
+    """Give all nodes that the tables call blocked, ascending; there are none where none failed."""
+    if not state.failed:
+        return _NONE
+    curves, rows = (
+        np.flatnonzero((table.state.data == State.BLOCKED) & table.alive.data)
+        for table in (state.curves, state.rows)
+    )
+    return np.sort(np.concatenate([Node.curve(curves), Node.point(rows)]))
+
+
 def _note_states(network: HullNetwork, result: UpdatePass, journal: Journal) -> None:
     """Write which curves have failed, which are well again, and what is blocked now."""
     state = network.state
@@ -464,10 +476,11 @@ def _note_states(network: HullNetwork, result: UpdatePass, journal: Journal) -> 
     # A curve that was removed with its line has failed no more.
     there = [curve for curve in set(state.failed) | broken if state.curves.alive[curve]]
     failed = tuple(sorted(set(there) - mended))
-    if failed == state.failed:
+    # An edit of the structure also blocks what it makes of blocked things, and frees what it
+    # makes of others.
+    before, after = _marked_nodes(state), _blocked_nodes(network, failed)
+    if failed == state.failed and np.array_equal(before, after):
         return
-    before = _blocked_nodes(network, state.failed)
-    after = _blocked_nodes(network, failed)
     journal.set(state.settings.failed, [0], [failed])
     journal.put(state.curves.state, sorted(mended), int(State.CLEAN))
     for nodes, value in ((np.setdiff1d(before, after), State.CLEAN), (after, State.BLOCKED)):

@@ -124,6 +124,27 @@ def test_a_session_goes_on_after_reopening_as_if_it_had_stayed_open(
     go_on(fresh(which), session)
 
 
+def test_what_is_made_of_something_blocked_is_blocked_and_made_again_when_it_is_not() -> None:
+    """A section that begins to go through a point of a blocked waterline waits with it."""
+    task = Task((Act("set_role", 205, 1, 0.0),), "refuse")
+    session = [
+        Turn("fail", 1944, Task((Act("pull", 1, 0, 0.015625),), "refuse")),
+        Turn("edit", 0, task), Turn("undo", 0, task), Turn("redo", 0, task),
+    ]  # fmt: skip
+    hull = ah.Hull(fresh(7).state)
+    for number, turn in enumerate(session):
+        assert take(hull, turn, number) == ""
+        assert hull.verify() == ()
+    section = hull.lines["ST 4"].curves[0]
+    assert section.state == "blocked"
+    back = Turn("edit", 0, Task((Act("set_role", 205, 4, 0.0),), "report"))
+    assert take(hull, back, 4) == ""
+    assert hull.verify() == ()
+    assert section.state == "clean"
+    session.append(back)
+    go_on(fresh(7), session)
+
+
 def test_a_session_on_series_60_goes_on_after_reopening(series60_70: ah.Hull) -> None:
     """The same on a real hull."""
     rng = random.Random(60)
