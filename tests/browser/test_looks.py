@@ -513,6 +513,25 @@ def test_names_in_the_body_plan_belong_to_one_line(open_page: Open, bulk_carrier
     assert any(text == "20.04" and y < deck for text, _, y, _ in written)
 
 
+def test_lines_along_the_ship_are_named_in_either_half(
+    open_page: Open, bulk_carrier: ah.Hull
+) -> None:
+    """Most buttocks of the profile are, and most waterlines of the half-breadth plan aft."""
+    hand = open_page(bulk_carrier.snapshot(), before=WRITTEN)
+    for kind, family, fore in (("profile", "BTK ", 0.5), ("half", "WL ", 0.05)):
+        hand.page.evaluate("window.written = []")
+        hand.ask("p => p.store.changed('hull')")
+        hand.settled()
+        middle = hand.ask("(p, kind) => p.views[kind].at(150, 0, 0, 1)[0]", kind)
+        foot = hand.ask("(p, kind) => p.views[kind].at(0, 0, 0, 1)[1]", kind)
+        names = {name.split()[1] for name in bulk_carrier.lines if name.startswith(family)}
+        written = [each[1:] for each in hand.page.evaluate("window.written") if kind in each[0]]
+        left = min(x for _, x, *_ in written) + 30.0
+        here = [(text, x) for text, x, y, _ in written if text in names and x > left and y < foot]
+        assert len({text for text, x in here if x < middle}) > 0.6 * len(names)
+        assert len({text for text, x in here if x > middle}) > fore * len(names)
+
+
 def test_one_view_alone_shows_the_place_that_was_looked_at(open_page: Open, hull: ah.Hull) -> None:
     """What was zoomed stays in the middle at its scale, there and back, and in another window."""
     hand = open_page(hull)

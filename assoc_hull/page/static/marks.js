@@ -283,7 +283,7 @@ export function drawLabels(view, g, ink) {
 /** Names at the left, with their family above the highest. @param {Places} places @param {string} family @param {{name: string, y: number}[]} rows */
 function column(places, family, rows) {
   const {ink} = places;
-  // One at the upper edge would leave no room for the family.
+  // One at the edge leaves no room for the family.
   const written = rows.filter(({name, y}) => y >= 30 + HIGH + 1 && places.put(name, places.left, y, "right", ink.soft)).map(({y}) => y);
   if (written.length) places.put(family, places.left, Math.min(...written) - HIGH - 1, "right", ink.soft);
 }
@@ -297,7 +297,7 @@ function stationsAbove(view, places, ink) {
     const sides = line.family === "sections" ? view.sides(line) : null;
     // A line of several curves is named where it ends highest.
     const ends = line.curves.flatMap((id) => { const c = curves.get(id); return c ? [c.xyz.subarray(0, 3), c.xyz.subarray(-3)] : []; }).sort((p, q) => q[2] - p[2]);
-    if (sides && ends.length) for (const side of sides) found.push({full: line.name, name: short(line.name), at: view.at(ends[0][0], ends[0][1], ends[0][2], side)});
+    if (sides && ends.length) for (const side of sides) found.push({full: line.name + true, name: short(line.name), at: view.at(ends[0][0], ends[0][1], ends[0][2], side)});
   }
   // Whole stations first, so that halves give way.
   found.sort((p, q) => Number(!/^\d+$/.test(p.name)) - Number(!/^\d+$/.test(q.name)));
@@ -308,20 +308,20 @@ function stationsAbove(view, places, ink) {
     if (y < 20 || y > view.height) continue;
     if ([9, 21].some((above) => places.put(name, x, Math.max(y - above, 30), "center", ink.sections))) written.add(full);
   }
-  // Those that have no room above, as where they end at one transom, are named along the lines.
+  // Those without room above, as at one transom, are named along the lines.
   along(view, places, ink, written, 3 * written.size < found.length ? LEAST_GAP : FREE_GAP);
 }
 
 /**
- * Labels on the curves of the view's own family, each where its neighbours are farthest away; none
- * where they are so near that one could not tell whose it is.
+ * Labels on the curves of the view's own family, each where its neighbours are farthest away, along
+ * the ship once in either half; none where one could not tell whose it is.
  * @param {View} view @param {Places} places @param {Record<string, string>} ink @param {Set<string>} [written] @param {number} [least]
  */
 function along(view, places, ink, written = new Set(), least = LEAST_GAP) {
   const {net} = view.store, paths = pathsOf(view);
   if (!net) return;
   /** @type {{name: string, colour: string, x: number, y: number, gap: number, align: CanvasTextAlign}[]} */
-  const spots = [];
+  const spots = [], middle = view.at(net.particulars.length / 2, 0, 0, 1)[0];
   const from = Math.max(places.left, 0), to = view.width;
   for (let k = 1; k < COLUMNS; k++) {
     const x = from + (to - from) * k / COLUMNS, off = view.kind === "body" ? x - view.at(0, 0, 0, 1)[0] : Infinity;
@@ -335,7 +335,8 @@ function along(view, places, ink, written = new Set(), least = LEAST_GAP) {
     });
   }
   for (const {name, colour, x, y, align} of spots.sort((p, q) => q.gap - p.gap)) {
-    if (!written.has(name) && places.put(short(name), x, y, align, colour)) written.add(name);
+    const key = name + (view.kind === "body" || x > middle);
+    if (!written.has(key) && places.put(short(name), x, y, align, colour)) written.add(key);
   }
 }
 
