@@ -5,7 +5,7 @@ from __future__ import annotations
 import attrs
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
@@ -93,6 +93,8 @@ def test_volume_grows_by_the_waterplane(body: PreparedStrips, level: float, turn
     above, at, below = (
         integrate_immersed(body, planes(level + each, *turn)) for each in (step, 0.0, -step)
     )
+    # Where the surface is level just there the area has no derivative: no difference shows it.
+    assume(abs(above.area - below.area).max() <= 1e-4 * scales(body, ["area"])[0, 0])
     slope = (rows(above, SOLID) - rows(below, SOLID)) / (2.0 * step)
     area_z = level * at.area + turn[0] * at.area_x - turn[1] * at.area_y
     plane = np.stack([at.area, at.area_x, at.area_y, area_z])
