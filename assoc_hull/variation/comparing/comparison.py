@@ -519,7 +519,8 @@ def _less_fair(found: HullComparison, count: int) -> Iterator[str]:
     less = found.less_fair
     if less:
         yield ""
-        yield f"WARNING: {len(less)} lines are less fair than in the parent"
+        lines = "1 line is" if len(less) == 1 else f"{len(less)} lines are"
+        yield f"WARNING: {lines} less fair than in the parent"
         yield from (
             f"  {line.name}: {line.added:+d} changes of curvature sign, comb integral "
             + ("of no parent" if line.comb_ratio is None else f"{line.comb_ratio:.3g} times")

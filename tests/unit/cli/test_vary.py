@@ -211,7 +211,8 @@ def test_a_dry_run_names_lines_that_would_be_less_fair(
     words = capsys.readouterr().out
     less = ah.open(hull).compare(ah.open(hull).vary(set={"stem_rake_deg": 20.0}).hull).less_fair
     assert less
-    assert f"WARNING: {len(less)} lines are less fair" in words
+    number = "1 line is" if len(less) == 1 else f"{len(less)} lines are"
+    assert f"WARNING: {number} less fair" in words
     assert all(f"  {each.name}: " in words for each in less[:10])
 
 
