@@ -98,20 +98,25 @@ def test_a_page_is_open_only_when_the_hull_has_come(browser: Browser, hull: ah.H
         """Let the words of the server through, and keep back what it draws."""
         behind = socket.connect_to_server()
         behind.on_message(
-            lambda sent: kept.append(sent) if isinstance(sent, bytes) else socket.send(sent)
-        )
+            lambda sent: kept.append(sent) if kept_back and isinstance(sent, bytes)
+            else socket.send(sent)
+        )  # fmt: skip
         routes.append(socket)
 
-    routes = list[WebSocketRoute]()
+    routes, kept_back = list[WebSocketRoute](), {bytes}
     page.route_web_socket("**/socket", hold)
     with PageServer(hull, author="anna") as server:
         page.goto(server.address)
         hand = Hand(page, server)
         hand.until("p => p.message !== null && p.store.history")
-        page.wait_for_timeout(200.0)
+        for _ in range(200):  # what the server draws may come long after its words
+            page.wait_for_timeout(50.0)
+            if kept:
+                break
         assert kept
         assert hand.ask("p => [p.store.connection, p.hand.free]") == ["connecting", False]
-        for sent in kept:
-            routes[0].send(sent)
+        while kept:
+            routes[0].send(kept.pop(0))
+        kept_back.clear()
         hand.until("p => p.store.connection === 'open' && p.hand.free")
         context.close()
