@@ -238,9 +238,12 @@ def create(
     if is_definition(design):
         state, report = classical_net(design)
     else:
-        # A reading is given as it comes from `hull.design()`; what counts is its design.
-        own = getattr(design, "design", design)
-        state, report = build_net(instance(own, Design, "design", "in create"))
+        if not isinstance(design, Design):
+            from assoc_hull.creation.design_reading import DesignReading
+
+            if isinstance(design, DesignReading):
+                design = design.design
+        state, report = build_net(instance(design, Design, "design", "in create"))
     hull = Hull(state)
     hull.adoption = report
     return hull

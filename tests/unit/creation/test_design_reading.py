@@ -181,6 +181,14 @@ def test_a_created_hull_gives_its_own_design(plain_ship: ah.Hull) -> None:
     assert ah.create(reading.design).fingerprint == plain_ship.fingerprint
 
 
+def test_a_hull_is_no_design(plain_ship: ah.Hull) -> None:
+    """What is made of `hull.design()` is not made of the hull, nor of its method."""
+    for given in (plain_ship, plain_ship.design):
+        with pytest.raises(ah.errors.WrongTypeError, match=r"give a Design") as caught:
+            ah.create(given)  # type: ignore[arg-type]
+        assert "bound method" not in str(caught.value) or given is not plain_ship
+
+
 def barge(
     stations: Sequence[float] = (5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0),
     leave_out: str = "", deck_end: float = 40.0, stem: float = 4.0,
