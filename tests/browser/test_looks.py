@@ -145,7 +145,7 @@ def test_lengths_are_compressed_and_a_view_stands_alone(open_page: Open, hull: a
         hand.settled()
         tall = hand.ask("p => p.views.half.sy / p.views.half.axis.s")
         assert abs(tall - factor) < 1e-9, "also where the height of the view has no room to grow"
-        assert hand.page.locator(".view-half .note").inner_text() == f"heights × {factor}.0"
+        assert hand.page.locator(".view-half .note").inner_text() == f"breadths × {factor}.0"
     hand.page.keyboard.press("Escape")
     hand.page.keyboard.press("Escape")
     hand.settled()

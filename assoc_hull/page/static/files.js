@@ -161,7 +161,7 @@ export class Beside {
     const [x0, y0, x1, y1] = placing.given.map(typedNumber), [[u0, v0], [u1, v1]] = placing.at;
     if (![x0, y0, x1, y1].every(Number.isFinite)) return void (this.words.textContent = "Type four numbers of metres, such as 6.953.");
     const across = (x1 - x0) / (u1 - u0), up = (y0 - y1) / (v1 - v0), wide = Math.abs(u1 - u0) >= 0.05 * Math.abs(v1 - v0), tall = Math.abs(v1 - v0) >= 0.05 * Math.abs(u1 - u0);
-    // Two places on one level say nothing of the heights: the scale is that of the length then.
+    // Two places on one level say nothing of heights: these have the scale of the length.
     const sx = wide ? across : up, sy = tall ? up : across;
     if (!(sx > 0 && sy > 0 && Number.isFinite(sx + sy))) return void (this.words.textContent = "These coordinates turn the picture over or make it vanish: x or y grows to the right, z or y upward.");
     Object.assign(picture, {x: x0 - u0 * sx, y: y0 + v0 * sy, across: sx, up: sy});

@@ -135,7 +135,7 @@ export function paintOverlay(view, ink) {
   if (chosen !== null) {
     stroke(view, g, chosen, ink.ink, view.kind === "wire" ? 1.4 : 2);
   }
-  view.note.textContent = noteOf(view); // the magnification is known only now
+  view.note.textContent = noteOf(view); // the factor is known only now
   if (view.kind === "wire") return;
   if (store.show.combs) for (const id of combed(view)) drawComb(view, g, ink, id, id === chosen);
   drawHandles(view, g, ink);
@@ -147,7 +147,7 @@ function noteOf(view) {
   if (view.kind === "wire") return "";
   if ((view.store.overlay || view.store.ghost || view.store.theirs?.frame) && view.store.show.movement && view.magnified) words.push(`movement × ${view.magnified.toLocaleString("en")}`);
   const tall = view.sy / view.axis.s;
-  if (tall > 1.01) words.push(`heights × ${tall.toFixed(1)}`);
+  if (tall > 1.01) words.push(`${view.kind === "half" ? "breadths" : "heights"} × ${tall.toFixed(1)}`);
   return words.join(" · ");
 }
 

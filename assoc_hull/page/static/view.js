@@ -225,7 +225,7 @@ export class View {
     for (const view of this.partner ? [this, this.partner] : [this]) if (view.shown) view.set = [view.width, view.height];
     const both = (this.partner ? [this, this.partner] : [this]).filter((view) => view.shown);
     const rooms = both.map((view) => view.room()), squeeze = this.kind === "wire" || this.kind === "body" ? 1 : this.store.squeeze;
-    // Lengths give way where heights have no room to grow: every factor is what it says.
+    // Lengths give way where heights have no room: a factor is what it says.
     this.axis.s = Math.min(...rooms.map((room) => Math.min(room.across, room.up / squeeze)));
     both.forEach((view) => {
       view.sy = this.axis.s * squeeze;
