@@ -44,6 +44,9 @@ HULLS: Mapping[str, Callable[[], ah.Hull]] = {
 """The hulls by name."""
 
 _SIZES = ("length", "breadth", "draught", "depth", "deck_height")
+_BODY = {"parallel_body_start", "parallel_body_end", "parallel_body_length"}
+"""Two of them give the third: all three are refused at once, as pairs that are one number are."""
+
 _MET, _REACHED = 1e-6, 1e-8
 
 
@@ -95,7 +98,7 @@ def draw_sets(name: str, count: int, seed: int) -> Iterator[dict[str, float]]:
         for each in rng.sample(entries, len(entries)):
             if len(chosen) == size:
                 break
-            if any(other in chosen for other in each.conflicts):
+            if any(other in chosen for other in each.conflicts) or {*chosen, each.name} >= _BODY:
                 continue
             most = largest_change(each, length)
             value = (each.value or 0.0) + rng.uniform(-most, most)

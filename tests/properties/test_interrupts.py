@@ -26,8 +26,8 @@ from tests.properties.test_program_edits import Count, by_program
 from tests.properties.test_published_states import content
 
 ROOT = str(Path(ah.__file__).parent)
-COUNT = 400 if LONG else 6
-"""Interrupts an act."""
+COUNT = 80 if LONG else 6
+"""Interrupts an act; 2,000 and more over all acts in the long form."""
 
 
 def _move(hull: ah.Hull) -> None:
@@ -77,6 +77,10 @@ def _drag(hull: ah.Hull) -> None:
         hull.drag("WL 2.5 x ST 7", radius=(20.0, 4.0)).to(d=0.02)
 
 
+def _vary(hull: ah.Hull) -> None:
+    hull.vary(set={"breadth": 1.01 * hull.particulars.breadth})
+
+
 TAKEN_BACK: dict[str, Callable[[ah.Hull], None]] = {
     "a refused edit": _refused, "an edit given up": _given_up, "a preview": _preview,
     "a step of a drag": _drag,
@@ -87,7 +91,8 @@ BACK = ("/graph/journal.py", "/graph/table.py", "/edit/transaction.py")
 ACTS: dict[str, tuple[Callable[[ah.Hull], None], int]] = {
     "a moved point": (_move, 1), "a point moved by the program": (_move_by_program, 1),
     "an inserted point": (_insert, 1), "undo": (_undo, 1), "redo": (_redo, 2),
-    "a checkpoint": (_name, 1), "what a file does for a move": (_move, 1),
+    "a checkpoint": (_name, 1), "a variation": (_vary, 1),
+    "what a file does for a move": (_move, 1),
     **{name: (act, 1) for name, act in TAKEN_BACK.items()},
 }  # fmt: skip
 """Each with what is done before: 1 an edit, 2 an edit that is taken back."""
