@@ -246,7 +246,8 @@ class VariationReport(ShownAsText):
     ----------
     targets : tuple of Target
     rounds : int
-        How often the map was laid out until all targets were met.
+        How often the plan was carried out in full until all targets were met; small misses are
+        made up for by a nudge of the carried hull, which is none.
     regions : tuple of FieldRegion
         Boxes of the profile plane outside which no map moves anything.
     drivers : tuple of str

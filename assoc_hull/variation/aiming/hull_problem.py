@@ -27,7 +27,7 @@ from assoc_hull.variation.carrying.hull_maps import HullMaps
 from assoc_hull.variation.carrying.velocities import Velocities, velocities
 from assoc_hull.variation.parameters.catalogue import Freedom
 
-__all__ = ["HullProblem", "Reached"]
+__all__ = ["HullProblem", "NudgeBase", "Reached"]
 
 _FAR = 0.2
 """m: drivers have points that hold them to their images; farther on, they need others."""
@@ -43,7 +43,7 @@ _HAIR = 1e-3
 
 
 @attrs.frozen(eq=False)
-class Base:
+class NudgeBase:
     """A hull carried in full, from which others are nudged.
 
     Attributes
@@ -54,7 +54,7 @@ class Base:
         Those that drove, boundary curves among them.
     follow : bool
     still : bool
-        Whether it is the parent itself.
+        Whether it is the parent itself, not to be nudged.
     maps : HullMaps
     """
 
@@ -64,6 +64,12 @@ class Base:
     follow: bool
     still: bool
     maps: HullMaps
+
+    @classmethod
+    def of(cls, maps: HullMaps) -> NudgeBase:
+        """Take the hull of maps as it is: its lines drive as when all parameters move a hair."""
+        lines, follow = maps.driving(_HAIR * Freedom.probe(maps.free))
+        return cls(maps.state, np.zeros(len(maps.free)), lines, follow, still=False, maps=maps)
 
     @cached_property
     def rates(self) -> Velocities:
@@ -87,6 +93,18 @@ class Base:
             return None
         return self.rates.nudge(by, self.state.particulars, self.maps.ask.tolerance)
 
+    def nudged(self, amplitudes: FloatArray) -> HullState | None:
+        """Give the hull nudged to amplitudes; None if its structure would not stay."""
+        document, by = Document(copy_state(self.state)), self.nudge_to(amplitudes)
+        if by is None:
+            return self.state
+        try:
+            with Transaction(document, self.maps.ask.name) as edit:
+                nudge(edit, by)
+        except RefusedEditError:
+            return None
+        return document.state if _same_structure(self.state, document.state) else None
+
 
 @attrs.define(eq=False)
 class Reached:
@@ -107,7 +125,7 @@ class Reached:
 
     state: HullState
     amplitudes: FloatArray
-    base: Base
+    base: NudgeBase
     outputs: Outputs
     like: HullState | None = None
     _values: FloatArray | None = None
@@ -160,7 +178,7 @@ class HullProblem:
 
     maps: HullMaps
     measured: Outputs
-    bases: list[Base] = attrs.field(factory=list)
+    bases: list[NudgeBase] = attrs.field(factory=list)
     quick: bool = True
     carries: int = 0
     nudges: int = 0
@@ -203,13 +221,11 @@ class HullProblem:
         self.bases = [*self.bases[-_KEPT + 1 :], base]
         return Reached(base.state, at, base, self.measured)
 
-    def _parent(self, at: FloatArray) -> Base:
-        """Take the parent as it is: lines will drive as they do when all parameters move a hair."""
-        maps = self.maps
-        lines, follow = maps.driving(_HAIR * Freedom.probe(maps.free))
-        return Base(maps.state, at, lines, follow, still=True, maps=maps)
+    def _parent(self, at: FloatArray) -> NudgeBase:
+        """Take the parent as it is; it is nudged nowhere, as it has not the lines of any map."""
+        return attrs.evolve(NudgeBase.of(self.maps), amplitudes=at, still=True)
 
-    def _carried(self, at: FloatArray) -> Base:
+    def _carried(self, at: FloatArray) -> NudgeBase:
         """Carry the parent in full."""
         maps, room = self.maps, self.maps.room
         document = Document(copy_state(maps.state))
@@ -218,23 +234,17 @@ class HullProblem:
         )
         self.carries += 1
         lines = maps.with_boundaries(applied.driving.lines)
-        return Base(document.state, at, lines, applied.driving.follow, still=False, maps=maps)
+        return NudgeBase(document.state, at, lines, applied.driving.follow, still=False, maps=maps)
 
-    def _nudged(self, base: Base, at: FloatArray) -> Reached | None:
+    def _nudged(self, base: NudgeBase, at: FloatArray) -> Reached | None:
         """Nudge a hull; None if its structure would not stay."""
-        document, by = Document(copy_state(base.state)), base.nudge_to(at)
-        if by is None:
+        if not (at - base.amplitudes).any():
             return Reached(base.state, at, base, self.measured)
-        try:
-            with Transaction(document, self.maps.ask.name) as edit:
-                nudge(edit, by)
-        except RefusedEditError:
+        state = base.nudged(at)
+        if state is None:
             return None
         self.nudges += 1
-        if not _same_structure(base.state, document.state):
-            return None
-        like = base.state if self.quick else None
-        return Reached(document.state, at, base, self.measured, like)
+        return Reached(state, at, base, self.measured, base.state if self.quick else None)
 
 
 def _same_structure(one: HullState, other: HullState) -> bool:

@@ -1,10 +1,12 @@
 """Set values and targets met on the lofted hull: carry, measure, correct, until both hold.
 
 A map moves the measured places exactly, but the hull that is lofted again through its images keeps
-them only within a tolerance, and maps that come later move what earlier ones have placed. So what
-the maps are to give, the aims, is corrected, and the whole plan is carried out anew from the
-parent: corrections on top of a carried hull would come with an error of lofting of their own each
-time. Targets of outputs are reached on the hull that the plan gives, in each round.
+them only within a tolerance, and maps that come later move what earlier ones have placed. Misses
+are small, mostly: the hull is nudged by the map that makes up for them, in which no point comes or
+goes, so that what is measured is smooth. Where that will not do, what the maps are to give, the
+aims, is corrected, and the whole plan is carried out anew from the parent: lines that are cut anew
+on top of a carried hull would come with an error of lofting of their own each time. Targets of
+outputs are reached on the hull that the plan gives, in each round.
 """
 
 from __future__ import annotations
@@ -18,13 +20,14 @@ import numpy as np
 from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.model.tables import HullState, copy_state
-from assoc_hull.variation.aiming.hull_problem import HullProblem, Reached
+from assoc_hull.variation.aiming.hull_problem import HullProblem, NudgeBase, Reached
 from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.aiming.report import AimReport
 from assoc_hull.variation.aiming.target_solver import solve_targets
 from assoc_hull.variation.carrying.admissible_values import SAME, AdmissibleValues
 from assoc_hull.variation.carrying.carry_stages import CarriedMap, StagedCarry
 from assoc_hull.variation.carrying.hull_maps import HullMaps
+from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE, Freedom
 from assoc_hull.variation.parameters.compose_map import refuse_clashes
 from assoc_hull.variation.parameters.parameter_measures import measure_all
@@ -92,7 +95,7 @@ class SettledPlan:
     values : mapping of str to float
         What named parameters get, free ones among them.
     rounds : int
-        How often the plan was carried out.
+        How often the plan was carried out in full.
     faired : FairedFollowers or None
         How followers were faired after it.
     off, shift : (m,), of the size of targets; (m,)
@@ -197,6 +200,8 @@ def settle_plan(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
     there: SettledPlan | None = found
     rounds, searched = 1, 0
     while best.unmet > 1.0 and rounds < _ROUNDS + searched:
+        if (nudged := _nudged(carry, found)) is not None:
+            return attrs.evolve(nudged, rounds=rounds)
         aims, rounds, again = aims.corrected(found.miss), rounds + 1, found.faired
         start = None if found.aimed is None else _hull(found.aimed).amplitudes
         try:
@@ -255,12 +260,85 @@ def _attempt(
     faired, off = _faired(carry, again, insist=insist), None
     if faired is not None and aimed is not None and ask.reach is not None and before is not None:
         aimed, off = _after_fairing(carry, aimed, ask.reach, before)
-    reached = measure_requested(carry.edit.state, ask)
-    miss = {name: value - reached[name] for name, value in ask.values.items()}
+    miss = _misses(carry.edit.state, ask)
     return SettledPlan(
         carry, dict(aims), miss, start, aimed, values,
         faired=faired, off=off, shift=shift, again=again, insist=insist,
     )  # fmt: skip
+
+
+# --------------------------------------------------------------------------------------
+# Small misses: the carried hull is nudged, which keeps its points, so that values are smooth in it.
+
+_TRIALS = 6
+
+_STRAY = 1e-8
+"""m or degrees: what is off by more after one nudge takes part in the next."""
+
+
+def _nudged(carry: StagedCarry, found: SettledPlan) -> SettledPlan | None:
+    """Nudge the hull that a plan has carried so that all set values are met; None if none does it.
+
+    The map of what is missed, no larger than the misses are, follows the last one of the plan.
+    """
+    ask = carry.ask
+    if ask.reach is not None or ask.layout.blend == "paper":
+        return None  # targets are sought anew in each round; maps of ratios are to stay few
+    state, stages = copy_state(carry.edit.state), carry.edit.stages
+    room = AdmissibleValues.of(state, ask.layout, ask.tolerance)
+    try:
+        base, by = _nudge_for(room, ask, found.miss)
+        last, (whole, certificate) = carry.carried[-1], base.maps.certified(by)
+        carry.carry(room, VariationMap(()), {}, by=base.nudge_to(by))
+    except AssocHullError:
+        carry.edit.take_back(stages)
+        return None
+    del carry.carried[-1]
+    met = attrs.evolve(found, miss=_misses(carry.edit.state, ask))
+    if met.unmet > 1.0:
+        carry.edit.take_back(stages)
+        return None
+    carry.carried[-1] = CarriedMap(
+        VariationMap((*last.map.layers, *whole.layers)),
+        min(last.certificate, certificate, key=lambda each: each.least), last.applied,
+    )  # fmt: skip
+    return met
+
+
+def _nudge_for(
+    room: AdmissibleValues, ask: VariationRequest, missed: Mapping[str, float]
+) -> tuple[NudgeBase, FloatArray]:
+    """Find from where, and by which amplitudes of what is missed, all set values are met.
+
+    Raises
+    ------
+    BadInputError
+        No small change of these does it.
+    """
+    bare, miss, free = attrs.evolve(ask, values={}, layers=()), missed, tuple[str, ...]()
+    # What was met at first and is lost to the changes of others takes part from then on.
+    while more := tuple(n for n, each in miss.items() if abs(each) > _STRAY and n not in free):
+        free = (*free, *more)
+        named = [Freedom.named(n, room.present[n], room.parent.length) for n in free]
+        base = NudgeBase.of(HullMaps(room, bare, {}, tuple(named)))
+        by, miss = _tried_nudges(base, ask, free, missed)
+    return base, by
+
+
+def _tried_nudges(
+    base: NudgeBase, ask: VariationRequest, free: tuple[str, ...], missed: Mapping[str, float]
+) -> tuple[FloatArray, Mapping[str, float]]:
+    """Find the amplitudes by which what is free is met, and what all values are missed by then."""
+    aims, miss = _Aims(free, np.zeros(len(free)), np.eye(len(free))), missed
+    for _ in range(_TRIALS):
+        aims = aims.corrected(miss)
+        state = base.nudged(aims.aim) if base.near(aims.aim) else None
+        if state is None:
+            break
+        miss = _misses(state, ask)
+        if max(abs(miss[name]) for name in free) <= _STRAY:
+            return aims.aim, miss
+    raise BadInputError("no nudge meets the values", "in vary", "carry the hull in full")
 
 
 # --------------------------------------------------------------------------------------
@@ -323,6 +401,12 @@ def _sizes(before: FloatArray, targets: FloatArray) -> FloatArray:
     """Give the sizes of targets, of which misses are parts."""
     sizes = np.maximum(np.abs(before), np.abs(targets))
     return np.where(sizes > 0.0, sizes, 1.0)
+
+
+def _misses(state: HullState, ask: VariationRequest) -> dict[str, float]:
+    """Give by how much set values are missed, m or degrees: asked less measured ones, by name."""
+    reached = measure_requested(state, ask)
+    return {name: value - reached[name] for name, value in ask.values.items()}
 
 
 def _refuse_jump(found: SettledPlan, room: AdmissibleValues) -> None:
