@@ -1,6 +1,7 @@
 // All actions: words, keys, whether they can be done now. And the keys.
 
-import {passes, pin, remove, showChosen} from "./lists.js";
+import {passes, pin, remove} from "./point_acts.js";
+import {showChosen} from "./ways.js";
 
 /** @typedef {import("./page.js").Page} Page */
 
@@ -202,7 +203,7 @@ export class Keys {
     else if (at instanceof Element && at.closest("aside, .bar")) page.activeView().upper.focus({preventScroll: true});
     else if (store.marked) {
       store.marked = null;
-      store.changed("overlay");
+      store.changed("hull", "overlay");
     }
     else if (store.maximised) page.maximise(/** @type {import("./view.js").Kind} */ (store.maximised));
     else store.select(null, null);

@@ -1,45 +1,10 @@
 // What panels that ask the server have in common.
 
+import {make, paragraph} from "./elements.js";
+
 /** @typedef {import("./page.js").Page} Page */
 
 const PAUSE = 250; // ms: not at every step of a burst of edits
-
-/** @param {string} words @param {() => void} run */
-export function button(words, run) {
-  const found = document.createElement("button");
-  found.type = "button";
-  found.textContent = words;
-  found.onclick = run;
-  return found;
-}
-
-/** @param {string} words @param {() => void} run */
-export function link(words, run) {
-  const found = button(words, run);
-  found.className = "link";
-  return found;
-}
-
-/** @param {string} words @param {string} [name] */
-export function paragraph(words, name = "") {
-  const found = document.createElement("p");
-  found.textContent = words;
-  found.className = name;
-  return found;
-}
-
-/** A table with words above it and heads of its columns. @param {string} words @param {string[]} titles */
-export function tableOf(words, titles) {
-  const table = document.createElement("table"), head = table.createTHead().insertRow();
-  table.createCaption().textContent = words;
-  for (const title of titles) {
-    const cell = document.createElement("th");
-    cell.scope = "col";
-    cell.textContent = title;
-    head.append(cell);
-  }
-  return table;
-}
 
 export class Asker {
   /** @param {Page} page @param {HTMLElement} box */
@@ -54,7 +19,7 @@ export class Asker {
     this.timer = undefined;
     this.words = paragraph("");
     this.words.setAttribute("role", "status");
-    this.list = document.createElement("div");
+    this.list = make("div");
   }
 
   get open() { return this.box.closest("details")?.open ?? false; }

@@ -1,8 +1,9 @@
 // Files: those that the server writes, and those that are dropped: a hull beside, a picture to trace.
 
-import {Asker, button, paragraph} from "./asker.js";
+import {button, make, paragraph} from "./elements.js";
+import {Asker} from "./asker.js";
 import {typedNumber} from "./units.js";
-import {parseFrame} from "./net.js";
+import {parseFrame} from "./wire.js";
 
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {import("./view.js").View} View */
@@ -14,7 +15,7 @@ export class Files extends Asker {
   /** @param {import("./page.js").Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
-    const choice = this.choice = document.createElement("select"), form = document.createElement("div");
+    const choice = this.choice = make("select"), form = make("div");
     choice.setAttribute("aria-label", "form of the file");
     choice.replaceChildren(...FORMS.map(([value, words]) => new Option(words, value)));
     form.className = "form";
@@ -36,7 +37,7 @@ export class Files extends Asker {
     const {name, data, notes, bytes, what} = message.value;
     const raw = atob(data), whole = new Uint8Array(raw.length);
     for (let i = 0; i < raw.length; i++) whole[i] = raw.charCodeAt(i);
-    const link = document.createElement("a"), address = URL.createObjectURL(new Blob([whole], {type: "application/octet-stream"}));
+    const link = make("a"), address = URL.createObjectURL(new Blob([whole], {type: "application/octet-stream"}));
     link.href = address;
     link.download = name;
     link.click();
@@ -53,11 +54,8 @@ export class Beside {
     this.page = page;
     this.words = paragraph("Drop a file with a hull on the page, or a picture on a drawing: it is shown beside, your hull stays as it is.");
     this.words.setAttribute("role", "status");
-    this.form = document.createElement("div");
-    this.form.className = "form";
-    const file = document.createElement("input");
-    file.type = "file";
-    file.setAttribute("aria-label", "a file to be shown beside");
+    this.form = make("div", {className: "form"});
+    const file = make("input", {type: "file", ariaLabel: "a file to be shown beside"});
     file.onchange = () => {
       if (file.files?.[0]) this.take(file.files[0], page.activeView());
       file.value = "";
@@ -136,7 +134,7 @@ export class Beside {
     if (!placing) return;
     const names = [placing.view.a, placing.view.b].map((axis) => AXIS_NAMES[axis]);
     placing.given = n ? ["first", "second"].slice(0, n).flatMap((which, i) => names.map((name, j) => {
-      const field = placing.given[2 * i + j] ?? document.createElement("input");
+      const field = placing.given[2 * i + j] ?? make("input");
       field.inputMode = "decimal";
       field.placeholder = field.ariaLabel = `${name} of the ${which} place, m`;
       return field;

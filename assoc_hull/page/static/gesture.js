@@ -1,5 +1,6 @@
 // Pointers on a view: hover, choose, drag a point, pan, zoom, turn the wire.
 
+import {make} from "./elements.js";
 import {curveThrough, nearestCurve, nearestPoint} from "./view.js";
 
 /** @typedef {import("./view.js").View} View */
@@ -41,7 +42,7 @@ export class Pointers {
     this.onInsert = null;
     /** May take a click to place a picture. @type {((x: number, y: number) => boolean) | null} */
     this.onPlace = null;
-    /** Takes places while a line is re-shaped. @type {import("./propose.js").Shaper | null} */
+    /** Takes places while a line is re-shaped. @type {import("./reshape.js").Shaper | null} */
     this.shaper = null;
   }
 
@@ -219,12 +220,10 @@ export class Pointers {
     tip.hidden = !net || (!point && curve === null);
     if (tip.hidden || !net) return;
     tip.replaceChildren();
-    const name = document.createElement("b");
-    name.textContent = point ? point.label || point.name : curve === null ? "" : net.curveName(curve);
+    const name = make("b", {textContent: point ? point.label || point.name : curve === null ? "" : net.curveName(curve)});
     tip.append(name);
     if (point) for (const words of [net.roleWords(point), net.wayWords(point)]) {
-      const line = document.createElement("span");
-      line.textContent = words;
+      const line = make("span", {textContent: words});
       tip.append(line);
     }
     const right = x > view.width - 250;

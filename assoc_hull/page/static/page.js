@@ -1,18 +1,21 @@
 // The page: its parts, what the server says, what actions do.
 
+import {make} from "./elements.js";
 import {ACTIONS, Keys, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
-import {CROSSING, GHOST, LIVE, NET, Net, PUBLISHED, THEIRS, VERSION, parseFrame} from "./net.js";
-import {Speaker, keepLooks, layRows, placeBubble, readInk, restoreLooks, themeOf} from "./looks.js";
+import {CROSSING, Net} from "./net.js";
+import {GHOST, LIVE, NET, PUBLISHED, THEIRS, VERSION, parseFrame} from "./wire.js";
+import {Speaker, placeBubble} from "./notices.js";
+import {keepLooks, layRows, readInk, restoreLooks, themeOf} from "./looks.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
-import {Shaper} from "./propose.js";
+import {Shaper} from "./reshape.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
 import {count} from "./units.js";
 import {farthestDrawn, paintHull, paintOverlay} from "./paint.js";
 import {makeBar, openPalette} from "./bar.js";
-import {choose, find, goTo, stepCurve, stepPoint} from "./lists.js";
+import {choose, find, goTo, stepCurve, stepPoint} from "./ways.js";
 
 /** @typedef {import("./view.js").Kind} Kind */
 /** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */
@@ -37,14 +40,13 @@ export class Page {
     root.dataset.tab = this.store.tab;
     this.speaker = new Speaker(root);
     this.bar = makeBar(this);
-    const views = document.createElement("main"), aside = document.createElement("aside"), foot = document.createElement("footer");
+    const views = make("main"), aside = make("aside"), foot = make("footer");
     views.className = "views";
     aside.setAttribute("aria-label", "Point, curve, edit");
-    this.banner = document.createElement("div");
-    this.banner.className = "banner";
+    this.banner = make("div", {className: "banner"});
     this.banner.setAttribute("role", "status");
-    this.status = document.createElement("span");
-    this.figures = document.createElement("span");
+    this.status = make("span");
+    this.figures = make("span");
     foot.append(this.status, this.figures);
     root.append(this.bar.element, this.banner, views, aside, foot);
     const length = {o: 0, s: 1};

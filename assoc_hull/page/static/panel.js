@@ -1,13 +1,17 @@
 // The panel at the right: the point, its curve, what the edit does, who signs.
 
+import {button, link, make, paragraph} from "./elements.js";
 import {ACTIONS, keyWords} from "./actions.js";
-import {Numbers, Past, WhyPanel} from "./answers.js";
-import {button, link, paragraph} from "./asker.js";
+import {Numbers} from "./hydrostatics.js";
+import {Past} from "./history.js";
+import {WhyPanel} from "./why.js";
 import {arcLength, inflections} from "./hermite.js";
 import {farthest} from "./paint.js";
 import {Beside, Files} from "./files.js";
-import {Fairing, Vary} from "./ghosts.js";
-import {LineChoice, PointActs, PointTable, Problems, roleChoice} from "./lists.js";
+import {Fairing} from "./fair.js";
+import {Vary} from "./vary.js";
+import {LineChoice, PointTable, Problems} from "./lists.js";
+import {PointActs, roleChoice} from "./point_acts.js";
 import {Proposal, farWords} from "./propose.js";
 import {CROSSING} from "./net.js";
 import {count, millimetres, signed, typedNumber} from "./units.js";
@@ -24,7 +28,7 @@ export class Panel {
   constructor(page, element) {
     this.page = page;
     this.parts = Object.fromEntries(["Proposal", "Point", "Curve", "Edit", "Pull", "Why", "History", "Hydrostatics", "Fair", "Vary", "Points", "Problems", "Export", "Beside", "Signed as"].map((title) => {
-      const box = document.createElement("details"), head = document.createElement("summary"), heading = document.createElement("h2"), body = document.createElement("div");
+      const box = make("details"), head = make("summary"), heading = make("h2"), body = make("div");
       box.open = OPEN.includes(title);
       box.ontoggle = () => {
         const asker = [this.why, this.numbers].find((each) => each.box === body);
@@ -41,8 +45,8 @@ export class Panel {
     this.fields = [];
     this.shownRow = /** @type {number | null | undefined} */ (undefined);
     this.shownState = -1;
-    this.pointBox = document.createElement("div");
-    this.curveBox = document.createElement("div");
+    this.pointBox = make("div");
+    this.curveBox = make("div");
     this.parts.Point.append(this.pointBox);
     this.acts = new PointActs(page, this.parts.Point);
     this.lines = new LineChoice(page, this.parts.Curve);
@@ -63,13 +67,11 @@ export class Panel {
     this.radii = [0, 1].map((i) => this.#radius(i));
     const made = this.#switches(["fair-pull", "pinned", "insert", "reshape", "fair-shape"]), ofPoint = this.#switches(["knuckle", "smooth", "tangent", "pin", "delete"]);
     this.switches = [...made, ...ofPoint];
-    this.pointForm = document.createElement("div");
-    this.pointForm.className = "form";
+    this.pointForm = make("div", {className: "form"});
     this.pointForm.append(...ofPoint.map(({found}) => found));
     this.acts.add(this.pointForm);
     this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
-    const form = document.createElement("div");
-    form.className = "form";
+    const form = make("div", {className: "form"});
     form.append(...made.map(({found}) => found));
     this.parts.Pull.append(form);
   }
@@ -86,7 +88,7 @@ export class Panel {
 
   /** @param {number} i */
   #radius(i) {
-    const field = document.createElement("input"), {store} = this.page;
+    const field = make("input"), {store} = this.page;
     field.inputMode = "decimal";
     field.setAttribute("aria-label", i ? "radius of a pull around the girth, m" : "radius of a pull along the length, m");
     field.onchange = () => {
@@ -129,9 +131,9 @@ export class Panel {
 
   /** @param {HTMLElement} box @param {[string, string | Node][]} rows */
   #table(box, rows) {
-    const list = document.createElement("dl");
+    const list = make("dl");
     for (const [name, value] of rows) {
-      const term = document.createElement("dt"), what = document.createElement("dd");
+      const term = make("dt"), what = make("dd");
       term.textContent = name;
       what.append(value);
       list.append(term, what);
@@ -158,9 +160,7 @@ export class Panel {
       if (moved) moved.textContent = this.#movedWords(row);
       return;
     }
-    const role = store.net.roleWords(point), moved = document.createElement("span");
-    moved.className = "moved";
-    moved.textContent = this.#movedWords(row);
+    const role = store.net.roleWords(point), moved = make("span", {className: "moved", textContent: this.#movedWords(row)});
     // What is typed stays when somebody else has edited the hull meanwhile.
     const old = this.shownRow === row ? this.fields : [], at = old.findIndex((field) => field === document.activeElement);
     this.fields = AXES.map((name, i) => this.#field(point, name, i, place[i]));
@@ -193,8 +193,7 @@ export class Panel {
 
   /** @param {import("./net.js").Point} point @param {string} name @param {number} axis @param {number} value */
   #field(point, name, axis, value) {
-    const field = document.createElement("input");
-    field.inputMode = "decimal";
+    const field = make("input", {inputMode: "decimal"});
     field.value = value.toFixed(4);
     field.setAttribute("aria-label", `${name}, m, ${WAYS[axis]}`);
     field.title = WAYS[axis];
@@ -231,9 +230,7 @@ export class Panel {
     const line = id === null ? undefined : net?.lineOf(id), was = id === null ? undefined : store.curves.get(id), now = id === null ? undefined : store.curveNow(id);
     if (id === null || !net || !line || !was || !now) return this.#words(box, "Click a line, or choose it here.");
     const [a, b] = PLANES[line.family] ?? [0, 2], before = inflections(was, a, b).length, after = inflections(now, a, b).length;
-    const count = document.createElement("span");
-    count.textContent = before === after ? `${after}` : `${after}, was ${before}`;
-    count.className = after > before ? "hot" : "";
+    const count = make("span", {textContent: before === after ? `${after}` : `${after}, was ${before}`, className: after > before ? "hot" : ""});
     const by = now === was ? null : farthest(/** @type {any} */ ({curves: new Map([[id, now]])}), store.curves);
     this.#table(box, [
       ["name", net.curveName(id)],
@@ -274,8 +271,7 @@ export class Panel {
   }
 
   #signature() {
-    const {page} = this, field = document.createElement("input");
-    field.setAttribute("aria-label", "name that your edits are signed with");
+    const {page} = this, field = make("input", {ariaLabel: "name that your edits are signed with"});
     field.value = page.options.author;
     field.maxLength = 80;
     field.onchange = () => {

@@ -1,7 +1,7 @@
 // The one store: what is published, what is in hand, what is chosen, how it is looked at.
 
-/** @typedef {import("./net.js").Curve} Curve */
-/** @typedef {import("./net.js").Frame} Frame */
+/** @typedef {import("./wire.js").Curve} Curve */
+/** @typedef {import("./wire.js").Frame} Frame */
 /** @typedef {import("./net.js").Net} Net */
 /** @typedef {"hull" | "overlay" | "panel"} Stale */
 /** @typedef {{frame: Frame, amount: number | null, predicted: boolean}} Overlay */
@@ -49,7 +49,7 @@ export class Store {
     this.theme = "auto";
     /** @type {string | null} */
     this.maximised = null;
-    this.tab = "body";
+    this.tab = /** @type {import("./view.js").Kind} */ ("body");
     this.connection = /** @type {"connecting" | "open" | "lost" | "over"} */ ("connecting");
     this.reason = "";
     this.history = {edits: 0, undo: /** @type {string | null} */ (null), redo: /** @type {string | null} */ (null), above: /** @type {string | null} */ (null)};
@@ -76,7 +76,7 @@ export class Store {
   select(row, curve) {
     if (this.selection.row === row && this.selection.curve === curve) return;
     this.selection = {row, curve};
-    this.changed("overlay", "panel");
+    this.changed("hull", "overlay", "panel"); // names give way to points that are drawn
   }
 
   /** @param {number | null} row @param {number | null} curve */

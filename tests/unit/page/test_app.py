@@ -1,9 +1,10 @@
 """Who is let in, what is answered with which headers, and what the static files hold."""
 
 import asyncio
+import gzip
 import re
-import zlib
 from collections.abc import MutableMapping
+from importlib.resources import files
 from typing import Any
 
 import pytest
@@ -137,11 +138,50 @@ def test_a_request_by_another_name_is_refused(app: Any) -> None:
     assert get(app, "/", HOST, method="POST")[0] == 405
 
 
-def test_static_files_stay_within_their_budget() -> None:
-    """They name no other site but the name space of SVG, hold no inline script, and are small."""
+def downloaded(app: Any) -> dict[str, bytes]:
+    """What a browser that takes zipped answers is sent when it opens the page, by name."""
+    found, wanted = dict[str, bytes](), ["index.html"]
+    while wanted:
+        name = wanted.pop()
+        if name not in found:
+            path = "/" if name == "index.html" else f"/{name}"
+            status, about, found[name] = get(app, path, HOST, (b"accept-encoding", b"gzip, br"))
+            assert (status, about["content-encoding"]) == (200, "gzip")
+            text = gzip.decompress(found[name]).decode()
+            wanted += re.findall(r'(?:href|src)="([^"]+)"|from "\./(\w+\.js)"', text)
+            wanted = ["".join(each) for each in wanted]
+    return found
+
+
+def test_what_a_browser_downloads_stays_within_its_budget(app: Any) -> None:
+    """All but the notebook's own script; before and after it is unzipped."""
+    found = downloaded(app)
+    assert set(FILES) - set(found) == {"widget.js"}
+    assert sum(map(len, found.values())) < 80_000
+    assert sum(len(gzip.decompress(body)) for body in found.values()) < 250_000
+    for name, body in found.items():
+        assert gzip.decompress(body) == FILES[name][0]
+
+
+def test_scripts_are_sent_without_their_comments_and_else_as_they_are() -> None:
+    """Each statement stands in its line; a word within quotes is no comment."""
+    for each in files("assoc_hull.page").joinpath("static").iterdir():
+        if not each.name.endswith(".js"):
+            continue
+        written, sent = each.read_text().splitlines(), SCRIPTS[each.name].splitlines()
+        assert len(written) == len(sent)
+        assert not re.search(r"/\*|\*/|^ *//", SCRIPTS[each.name], re.M)
+        block = False
+        for line, short in zip(written, sent, strict=True):
+            block |= line.lstrip().startswith("/**")
+            if not block and "/**" not in line and not line.lstrip().startswith("//"):
+                assert short == line
+            block &= "*/" not in line
+
+
+def test_static_files_name_no_other_site_and_hold_no_inline_script() -> None:
+    """But the name space of SVG."""
     whole = b"".join(body for body, _ in FILES.values())
-    assert len(whole) < 250_000
-    assert sum(len(zlib.compress(body, 9)) for body, _ in FILES.values()) < 80_000
     addresses = set(re.findall(rb"https?:[^\s\"'`)]*", whole))
     assert addresses <= {b"http://www.w3.org/2000/svg"}
     page = FILES["index.html"][0].decode()
