@@ -1,4 +1,4 @@
-// What the page says: a refusal beside its point; in live regions, once a second at most.
+// What the page says: a refusal beside its point; in live regions, once a second at most; in its foot.
 
 import {make} from "./elements.js";
 import {signed} from "./units.js";
@@ -6,6 +6,7 @@ import {signed} from "./units.js";
 /** @typedef {import("./page.js").Page} Page */
 /** @typedef {import("./store.js").Store} Store */
 
+const READ = 6000; // ms
 const WIDE = 440, REASONS = 3;
 
 /** @param {Page} page */
@@ -66,4 +67,23 @@ export class Speaker {
     const name = net?.points.get(held.row)?.name ?? "";
     this.say(`${name}, ${held.how} ${(1e3 * held.amount).toFixed(1)} millimetres, ${overlay.frame.curves.size} curves follow, volume about ${signed(overlay.frame.volume, 1, "cubic metres")}`);
   }
+}
+
+/** What went wrong, what was said or can be done, and figures of what is in hand. @param {Page} page */
+export function writeFoot(page) {
+  const {store} = page, {held, overlay} = store;
+  const gone = store.connection === "lost" || store.connection === "over";
+  page.root.classList.toggle("gone", gone);
+  page.banner.hidden = !gone && !store.problem;
+  page.banner.textContent = gone ? store.reason : store.problem ?? "";
+  const hints = store.shaping ? "Re-shape: click where the line is to pass, drag a place, Backspace removes the last, Enter shows the answer, Esc gives up"
+    : held?.how === "pull" ? "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
+    : held ? "Move: Alt is ten times finer, Shift locks an axis, Esc cancels"
+    : store.selection.row !== null ? "Drag, or use the arrows: 1 mm, Shift 10 mm, Alt 0.1 mm" : "Click a point or a line; drag the ground to pan, the wheel zooms";
+  // What was said is read before it gives way to a hint.
+  const said = !held && performance.now() - page.said.at < READ ? page.said.words : "";
+  page.status.textContent = store.connection === "connecting" ? "Connecting" : said || hints;
+  const view = page.activeView(), pixel = 1e3 / view.axis.s * (page.store.tools.fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
+  const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
+  page.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.net?.points.get(store.theirs.row)?.name ?? "a point"}` : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
 }

@@ -37,7 +37,7 @@ export class Offer extends Asker {
     this.made = "";
   }
 
-  /** @param {object} message @param {string} words @param {object} what */
+  /** @param {{t: string, [name: string]: unknown}} message @param {string} words @param {object} what */
   offer(message, words, what) {
     this.askGhost(message, words);
     this.what = {...what, state: this.page.store.state};

@@ -1,9 +1,14 @@
 """Who is let in, what is answered with which headers, and what the static files hold."""
 
 import asyncio
+import contextlib
 import gzip
 import re
+import threading
+import time
+import urllib.request
 from collections.abc import MutableMapping
+from http.client import HTTPException
 from importlib.resources import files
 from typing import Any
 
@@ -265,3 +270,33 @@ def test_a_dropped_file_is_taken_from_its_own_page_only(app: Any, given: bytes |
     assert get(app, "/drop", HOST, *more, method="POST")[0] == 403
     assert get(app, "/drop", (b"host", b"evil.example"), (b"x-token", b"token"),
                method="POST")[0] == 403  # fmt: skip
+
+
+def test_a_server_does_not_wait_for_a_file_that_it_reads(
+    shipped: Shipped, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A large mesh takes a minute; who leaves meanwhile leaves."""
+    begun, go = threading.Event(), threading.Event()
+
+    def slow(*_: Any) -> dict[str, Any]:
+        begun.set()
+        go.wait(60.0)
+        return {}
+
+    def drop(address: str) -> None:
+        at, _, given = address.partition("#")
+        headers = {"X-Token": given.split("&")[0].removeprefix("t=")}
+        asked = urllib.request.Request(f"{at}drop?name=a.stl", b"solid", headers)
+        with contextlib.suppress(OSError, HTTPException):  # the server leaves
+            urllib.request.urlopen(asked, timeout=30.0).close()
+
+    monkeypatch.setattr("assoc_hull.page.app._told_of", slow)
+    with PageServer(shipped("wigley")) as server:
+        hand = threading.Thread(target=drop, args=(server.address,))
+        hand.start()
+        assert begun.wait(30.0)
+        begin = time.monotonic()
+    took = time.monotonic() - begin
+    go.set()
+    hand.join(30.0)
+    assert took < 5.0
