@@ -24,7 +24,7 @@ export function makeBar(page) {
   tools.className = "tools";
   tools.setAttribute("role", "toolbar");
   tools.setAttribute("aria-label", "Tools");
-  const search = make("input", {type: "search", placeholder: "Find: WL 2 x ST 7", ariaLabel: "Find a point or a line by its name"});
+  const search = make("input", {type: "search", placeholder: "Find ST 7", ariaLabel: "Find a point or a line by its name"});
   search.onkeydown = (event) => {
     if (event.key === "Enter") page.find(search.value);
   };

@@ -159,13 +159,12 @@ export function drawLabels(view, g, ink) {
   const of = (/** @type {string} */ family) => net.lines.filter((line) => line.family === family && line.offset !== null && line.axis !== null);
   const left = places.left = Math.max(view.at(body ? 0 : x0, y1, 0, -1)[0] - 8, 40);
   const foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
-  const rows = (/** @type {string} */ family, /** @type {(offset: number) => number} */ y) => column(places, family.slice(0, family.indexOf(" ")), of(family.slice(family.indexOf(" ") + 1)).map((line) => ({name: short(line.name), y: y(line.offset ?? 0)})));
   places.edge(body ? "BTK" : "ST", left, foot + 12, "right", ink.soft); // first, or a label has its place
   if (body) stations(view, places);
   if (view.kind !== "half") {
     places.edge("DWL", left, view.at(0, 0, ship.draught, 1)[1], "right", ink.water);
     places.edge("BL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
-    rows("WL waterlines", (z) => view.at(0, 0, z, 1)[1]);
+    column(places, "WL", of("waterlines"), (z) => view.at(0, 0, z, 1)[1]);
   }
   if (body) {
     const names = [...of("buttocks")].reverse();
@@ -178,7 +177,7 @@ export function drawLabels(view, g, ink) {
     for (const {name, x} of all) places.edge(name, x, foot + 12, "center", ink.soft);
     if (view.kind === "half") {
       places.edge("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
-      rows("BTK buttocks", (y) => view.at(0, y, 0, 1)[1]);
+      column(places, "BTK", of("buttocks"), (y) => view.at(0, y, 0, 1)[1]);
     }
     const written = new Set(), spots = spotsOf(view, places);
     within(places, spots, written, 0);
@@ -189,9 +188,9 @@ export function drawLabels(view, g, ink) {
   places.write();
 }
 
-/** Names at the left, with their family above the highest. @param {Places} places @param {string} family @param {{name: string, y: number}[]} rows */
-function column(places, family, rows) {
-  const {ink} = places;
+/** Names of the grid at the left, with their family above the highest. @param {Places} places @param {string} family @param {import("./net.js").Line[]} lines @param {(offset: number) => number} at */
+function column(places, family, lines, at) {
+  const {ink} = places, rows = lines.map(({name, offset}) => ({name: short(name), y: at(offset ?? 0)}));
   // One at the edge leaves no room for the family.
   const written = rows.filter(({name, y}) => y >= EDGE + HIGH + 1 && places.edge(name, places.left, y, "right", ink.soft)).map(({y}) => y);
   if (written.length) places.put(family, places.left, Math.min(...written) - HIGH - 1, "right", ink.soft);
@@ -278,8 +277,20 @@ function within(places, spots, written, least) {
 /** The others stand above the drawing in two rows, each with a leader to a place of its line. @param {View} view @param {Places} places @param {Spot[]} spots @param {Set<string>} written */
 function led(view, places, spots, written) {
   const {x1, y1, z1} = view.box(), top = Math.max(view.at(x1, y1, z1, 1)[1] - 6, EDGE + 24), far = view.width - 4;
-  const middle = view.at(view.midship, 0, 0, 1)[0], way = view.kind === "half" ? -1 : 1;
   const wide = (/** @type {Spot} */ {name}) => places.wide(name), widest = Math.max(...spots.map(wide), 0), room = widest / 2 + 5;
+  const chosen = knees(view, places, spots, written, top, room), xs = spread(chosen.map(({knee}) => knee), chosen.map(() => room), places.left + room / 2, far - widest / 2 + room / 2);
+  let low = -Infinity;
+  chosen.forEach((each, i) => {
+    const up = xs[i] - wide(each) / 2 < low + 6 ? 12 : 0;
+    if (!up) low = xs[i] + wide(each) / 2;
+    if (!i) places.put(each.line.name.split(" ")[0], xs[i] - wide(each) / 2 - 7, top - 14 - up, "right", each.colour);
+    if (places.put(each.name, xs[i], top - 14 - up, "center", each.colour)) leader(places, [[each.x, each.y], [each.knee, top], [xs[i], top - 8 - up]], each.colour, true);
+  });
+}
+
+/** Where leaders end on lines that have no name yet, and where they leave the drawing, from the left: all slant, so that none crosses another. @param {View} view @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} top @param {number} room */
+function knees(view, places, spots, written, top, room) {
+  const middle = view.at(view.midship, 0, 0, 1)[0], way = view.kind === "half" ? -1 : 1, far = view.width - 4;
   const named = (/** @type {string} */ line) => written.has(`${line}true`) || written.has(`${line}false`);
   /** @type {(Spot & {knee: number})[]} */
   const chosen = [];
@@ -287,13 +298,10 @@ function led(view, places, spots, written) {
   for (const once of [true, false]) {
     /** @type {Map<string, Spot[]>} */
     const of = new Map(), last = [places.left, far];
-    for (const each of spots) {
-      const key = once ? each.line.name : each.key;
-      if (!written.has(each.key) && each.y > top && each.gap > (once ? LEAST_GAP : PLAIN) && !(once && named(each.line.name))) {
-        const known = of.get(key);
-        if (known) known.push(each);
-        else of.set(key, [each]);
-      }
+    for (const each of spots) if (!written.has(each.key) && each.y > top && each.gap > (once ? LEAST_GAP : PLAIN) && !(once && named(each.line.name))) {
+      const key = once ? each.line.name : each.key, known = of.get(key);
+      if (known) known.push(each);
+      else of.set(key, [each]);
     }
     for (const all of [...of.values()].sort(([p], [q]) => way * ((p.line.offset ?? 0) - (q.line.offset ?? 0)))) {
       if ((chosen.length + 1) * room > far - places.left) break;
@@ -309,15 +317,7 @@ function led(view, places, spots, written) {
       written.add(best.key);
     }
   }
-  chosen.sort((p, q) => p.knee - q.knee);
-  const xs = spread(chosen.map(({knee}) => knee), chosen.map(() => room), places.left + room / 2, far - widest / 2 + room / 2);
-  let low = -Infinity;
-  chosen.forEach((each, i) => {
-    const up = xs[i] - wide(each) / 2 < low + 6 ? 12 : 0;
-    if (!up) low = xs[i] + wide(each) / 2;
-    if (!i) places.put(each.line.name.split(" ")[0], xs[i] - wide(each) / 2 - 7, top - 14 - up, "right", each.colour);
-    if (places.put(each.name, xs[i], top - 14 - up, "center", each.colour)) leader(places, [[each.x, each.y], [each.knee, top], [xs[i], top - 8 - up]], each.colour, true);
-  });
+  return chosen.sort((p, q) => p.knee - q.knee);
 }
 
 /** @param {Places} places @param {number[][]} way @param {string} colour @param {boolean} dot */
