@@ -3,8 +3,6 @@
 import {passes, pin, remove} from "./point_acts.js";
 import {showChosen} from "./ways.js";
 
-/** @typedef {import("./page.js").Page} Page */
-
 /** @typedef {{id: string, words: string, keys: string[], label?: (page: Page) => string, pressed?: (page: Page) => boolean, enabled?: (page: Page) => boolean, run: (page: Page) => void}} Action */
 
 const SQUEEZES = [1, 2, 5, 10];
@@ -19,7 +17,7 @@ const toggle = (what, words, key) => ({
   },
 });
 
-/** @param {import("./view.js").Kind} kind @param {string} key @param {string} words @returns {Action} */
+/** @param {Kind} kind @param {string} key @param {string} words @returns {Action} */
 const enlarge = (kind, key, words) => ({
   id: `view-${kind}`, words, keys: [key], pressed: (page) => page.store.maximised === kind,
   run: (page) => page.maximise(kind),
@@ -205,7 +203,7 @@ export class Keys {
       store.marked = null;
       store.changed("hull", "overlay");
     }
-    else if (store.maximised) page.maximise(/** @type {import("./view.js").Kind} */ (store.maximised));
+    else if (store.maximised) page.maximise(/** @type {Kind} */ (store.maximised));
     else store.select(null, null);
   }
 

@@ -2,8 +2,6 @@
 
 import {button, make, paragraph} from "./elements.js";
 
-/** @typedef {import("./page.js").Page} Page */
-
 const PAUSE = 250; // ms: not at every step of a burst of edits
 const LONG = 700; // ms: an answer that takes longer can be stopped
 const ANSWERS = ["compare", "export", "fairness", "hydrostatics", "parameters", "preview", "vary", "window"];

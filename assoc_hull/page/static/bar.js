@@ -3,11 +3,9 @@
 import {make} from "./elements.js";
 import {ACTIONS, keyWords} from "./actions.js";
 
-/** @typedef {import("./page.js").Page} Page */
-
 const GROUPS = [["pull", "move", "fine"], ["undo", "redo"], ["combs", "movement", "points", "labels", "compress"], ["fit", "theme", "keys"]];
 const SHORT = /** @type {Record<string, string>} */ ({combs: "Combs", movement: "Movement", points: "Points", labels: "Labels"});
-const TABS = /** @type {[import("./view.js").Kind, string][]} */ ([["body", "Body"], ["profile", "Profile"], ["half", "Half-breadth"], ["wire", "Wire"]]);
+const TABS = /** @type {[Kind, string][]} */ ([["body", "Body"], ["profile", "Profile"], ["half", "Half-breadth"], ["wire", "Wire"]]);
 const HANDS = [
   ["Choose a point or a line", "click"], ["Pull the hull, or move the point", "drag a point"], ["Move along its freedom", "Ctrl + drag"],
   ["Ten times finer (or, with Fine on, coarser); lock an axis", "Alt; Shift"], ["Radius of a pull", "wheel while dragging"], ["Pan, zoom, turn the wire", "drag the ground, wheel, drag the wire"],
@@ -16,14 +14,8 @@ const HANDS = [
 
 /** @param {Page} page */
 export function makeBar(page) {
-  const element = make("header"), ship = make("div"), title = make("h1"), dims = make("span"), tools = make("div");
-  element.className = "bar";
-  ship.className = "ship";
-  dims.className = "dims";
-  ship.append(title, dims);
-  tools.className = "tools";
+  const title = make("h1"), dims = make("span", {className: "dims"}), tools = make("div", {className: "tools", ariaLabel: "Tools"});
   tools.setAttribute("role", "toolbar");
-  tools.setAttribute("aria-label", "Tools");
   const search = make("input", {type: "search", placeholder: "Find ST 7", ariaLabel: "Find a point or a line by its name"});
   search.onkeydown = (event) => {
     if (event.key === "Enter") page.find(search.value);
@@ -35,9 +27,8 @@ export function makeBar(page) {
     for (const id of group) {
       const action = ACTIONS.find((each) => each.id === id);
       if (!action) continue;
-      const button = make("button", {type: "button"});
+      const button = make("button", {type: "button", onclick: () => action.run(page)});
       button.dataset.action = id;
-      button.onclick = () => action.run(page);
       buttons.set(id, button);
       box.append(button);
     }
@@ -45,15 +36,14 @@ export function makeBar(page) {
   }
   const tabs = make("nav", {className: "tabs", ariaLabel: "Views"});
   for (const [kind, words] of TABS) {
-    const button = make("button", {type: "button", textContent: words});
-    button.dataset.tab = kind;
-    button.onclick = () => {
+    const button = make("button", {type: "button", textContent: words, onclick: () => {
       page.store.maximised = null;
       page.maximise(kind);
-    };
+    }});
+    button.dataset.tab = kind;
     tabs.append(button);
   }
-  element.append(ship, tools, search, tabs);
+  const element = make("header", {className: "bar"}, make("div", {className: "ship"}, title, dims), tools, search, tabs);
   const dialog = make("dialog", {className: "sheet", ariaLabel: "Keys"});
   page.root.append(dialog);
   return {
@@ -63,7 +53,7 @@ export function makeBar(page) {
       search.focus();
       search.select();
     },
-    /** @param {import("./net.js").Particulars} ship @param {number} lines @param {number} points */
+    /** @param {Particulars} ship @param {number} lines @param {number} points */
     name(ship, lines, points) {
       title.textContent = ship.name;
       dims.textContent = `Lpp ${ship.length.toFixed(2)} · B ${ship.breadth.toFixed(2)} · T ${ship.draught.toFixed(2)} · D ${ship.depth.toFixed(2)} m · ${lines} lines · ${points} points`;

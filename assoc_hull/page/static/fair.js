@@ -5,8 +5,6 @@ import {Offer, costWords} from "./propose.js";
 import {curveOf} from "./ways.js";
 import {millimetres, typedNumber} from "./units.js";
 
-/** @typedef {import("./page.js").Page} Page */
-
 const LEAST = 1e-4, TIMES = 2000; // m: the slider goes from 0.1 to 200 mm
 
 /** @typedef {{line: string, springs: number, ratio: number, at: string, inflections: number | null}} Wavy */

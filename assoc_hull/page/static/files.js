@@ -1,26 +1,19 @@
 // Files: those that the server writes, and those that are dropped: a hull beside, a picture to trace.
 
-import {button, make, paragraph} from "./elements.js";
+import {button, form, make, paragraph} from "./elements.js";
 import {Asker} from "./asker.js";
 import {typedNumber} from "./units.js";
 import {parseFrame} from "./wire.js";
-
-/** @typedef {import("./page.js").Page} Page */
-/** @typedef {import("./view.js").View} View */
 
 const FORMS = [["pdf", "Lines plan, PDF"], ["svg", "Lines plan, SVG"], ["dxf", "All lines as splines, DXF"], ["csv", "Table of offsets, CSV"], ["xlsx", "Table of offsets, workbook"],
   ["hull.json", "The hull itself, as text"], ["iges", "Surface, IGES"], ["step", "Surface, STEP"], ["stl", "Closed mesh, STL"]];
 
 export class Files extends Asker {
-  /** @param {import("./page.js").Page} page @param {HTMLElement} box */
+  /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
-    const choice = this.choice = make("select"), form = make("div");
-    choice.setAttribute("aria-label", "form of the file");
-    choice.replaceChildren(...FORMS.map(([value, words]) => new Option(words, value)));
-    form.className = "form";
-    form.append(choice, button("Write the file", () => this.write(choice.value)));
-    box.append(form, this.words);
+    const choice = this.choice = make("select", {ariaLabel: "form of the file"}, ...FORMS.map(([value, words]) => new Option(words, value)));
+    box.append(form(choice, button("Write the file", () => this.write(choice.value))), this.words);
   }
 
   render() {}
@@ -37,11 +30,9 @@ export class Files extends Asker {
     const {name, data, notes, bytes, what} = message.value;
     const raw = atob(data), whole = new Uint8Array(raw.length);
     for (let i = 0; i < raw.length; i++) whole[i] = raw.charCodeAt(i);
-    const link = make("a"), address = URL.createObjectURL(new Blob([whole], {type: "application/octet-stream"}));
-    link.href = address;
-    link.download = name;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(address), 10_000);
+    const href = URL.createObjectURL(new Blob([whole], {type: "application/octet-stream"}));
+    make("a", {href, download: name}).click();
+    setTimeout(() => URL.revokeObjectURL(href), 10_000);
     this.words.textContent = [`${name}: ${what}, ${(bytes / 1000).toFixed(0)} kB, of the hull as it is now.`, ...notes].join("\n");
   }
 }
@@ -54,7 +45,7 @@ export class Beside {
     this.page = page;
     this.words = paragraph("Drop a file with a hull on the page, or a picture on a drawing: it is shown beside, your hull stays as it is.");
     this.words.setAttribute("role", "status");
-    this.form = make("div", {className: "form"});
+    this.form = form();
     const file = make("input", {type: "file", ariaLabel: "a file to be shown beside"});
     file.onchange = () => {
       if (file.files?.[0]) this.take(file.files[0], page.activeView());

@@ -1,7 +1,5 @@
 // Cubic segments: places, tangents, movement; teeth of combs, inflections. It knows no hull and no view.
 
-/** @typedef {import("./wire.js").Curve} Curve */
-
 /** Chord of the segment after knot i. @param {Curve} c @param {number} i */
 export function chord(c, i) {
   const p = 3 * i, {xyz} = c;

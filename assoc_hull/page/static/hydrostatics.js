@@ -24,7 +24,7 @@ function between([x, area], at) {
 }
 
 export class Numbers extends Asker {
-  /** @param {import("./page.js").Page} page @param {HTMLElement} box */
+  /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
     this.cursor = paragraph("");

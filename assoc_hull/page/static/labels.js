@@ -3,13 +3,12 @@
 import {pathsOf} from "./view.js";
 import {dotsOf} from "./marks.js";
 
-/** @typedef {import("./view.js").View} View */
-/** A name that is to be written: of which line, at its end or where a leader ends. @typedef {{line: import("./net.js").Line, name: string, key: string, x: number, y: number, gap: number, colour: string}} Spot */
+/** A name that is to be written: of which line, at its end or where a leader ends. @typedef {{line: Line, name: string, key: string, x: number, y: number, gap: number, colour: string}} Spot */
 
 const LETTERS = "11px system-ui, sans-serif", HIGH = 12, UPRIGHT = 10, CELL = 3, EDGE = 10; // px
 const COLUMN = 12, LEAST_GAP = 0.2, NEAR_GAP = 5, FREE_GAP = 9, TOLD = 1.5, PLAIN = 4; // px
 const SLANT = 0.4, APART = 7;
-const MANY = 0xffff;
+const MANY = 0xffff, DOT = 0xfffe; // what a cell holds beside numbers of lines
 
 /** Names that stand already, and the cells of the picture that lines and marks cover. */
 class Places {
@@ -19,15 +18,14 @@ class Places {
     this.view = view;
     this.ink = ink;
     const {offsetLeft: l, offsetTop: t, offsetWidth: w, offsetHeight: h} = view.head, from = getComputedStyle(view.head).transform === "none" ? l : l - w / 2;
-    /** The first is the title. @type {import("./view.js").Name[]} */
+    /** The first is the title. @type {Name[]} */
     this.written = [{text: "", box: [from, t, from + w, t + h], colour: "", turned: false}];
     this.left = 0;
     /** @type {Map<string, number>} */
     this.widths = new Map();
     this.across = Math.ceil(view.width / CELL) + 1;
     this.cells = new Uint16Array(this.across * (Math.ceil(view.height / CELL) + 1));
-    this.dots = new Uint8Array(this.cells.length);
-    /** @type {Map<import("./net.js").Line, number>} */
+    /** @type {Map<Line, number>} */
     this.numbers = new Map();
     for (const {id, path} of pathsOf(view)) {
       const line = view.store.net?.lineOf(id);
@@ -39,7 +37,7 @@ class Places {
     if (selection.row !== null && view.rows().includes(selection.row)) this.#dot(view.store.placeOf(selection.row), 10);
   }
 
-  /** @param {import("./net.js").Line} line */
+  /** @param {Line} line */
   number(line) {
     const known = this.numbers.get(line) ?? this.numbers.size + 1;
     this.numbers.set(line, known);
@@ -70,7 +68,7 @@ class Places {
     if (!place) return;
     const [x, y] = this.view.atPlace(place);
     this.#within([x - reach, y - reach, x + reach, y + reach], (at) => {
-      this.dots[at] = 1;
+      this.cells[at] = DOT;
       return false;
     });
   }
@@ -85,10 +83,10 @@ class Places {
   }
 
   /** Whether a mark lies there. @param {number[]} box */
-  dotted(box) { return this.#within(box, (at) => this.dots[at] > 0); }
+  dotted(box) { return this.#within(box, (at) => this.cells[at] === DOT); }
 
   /** Whether there is nothing but the line of this number. @param {number[]} box @param {number} number */
-  clear(box, number) { return !this.#within(box, (at) => this.dots[at] > 0 || (this.cells[at] > 0 && this.cells[at] !== number)); }
+  clear(box, number) { return !this.#within(box, (at) => this.cells[at] > 0 && this.cells[at] !== number); }
 
   /** Whether a box lies within the picture, and on no name. @param {number[]} box */
   free([l, t, r, b]) {
@@ -160,7 +158,7 @@ export function drawLabels(view, g, ink) {
   const left = places.left = Math.max(view.at(body ? 0 : x0, y1, 0, -1)[0] - 8, 40);
   const foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
   places.edge(body ? "BTK" : "ST", left, foot + 12, "right", ink.soft); // first, or a label has its place
-  if (body) stations(view, places);
+  if (body) stations(places);
   if (view.kind !== "half") {
     places.edge("DWL", left, view.at(0, 0, ship.draught, 1)[1], "right", ink.water);
     places.edge("BL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
@@ -179,16 +177,16 @@ export function drawLabels(view, g, ink) {
       places.edge("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
       column(places, "BTK", of("buttocks"), (y) => view.at(0, y, 0, 1)[1]);
     }
-    const written = new Set(), spots = spotsOf(view, places);
+    const written = new Set(), spots = spotsOf(places);
     within(places, spots, written, 0);
     // Where the top of the drawing is out of the picture, names above it would lie on lines.
-    if (view.at(x1, y1, z1, 1)[1] > EDGE + 20) led(view, places, spots, written);
+    if (view.at(x1, y1, z1, 1)[1] > EDGE + 20) led(places, spots, written);
     else within(places, spots, written, NEAR_GAP);
   }
   places.write();
 }
 
-/** Names of the grid at the left, with their family above the highest. @param {Places} places @param {string} family @param {import("./net.js").Line[]} lines @param {(offset: number) => number} at */
+/** Names of the grid at the left, with their family above the highest. @param {Places} places @param {string} family @param {Line[]} lines @param {(offset: number) => number} at */
 function column(places, family, lines, at) {
   const {ink} = places, rows = lines.map(({name, offset}) => ({name: short(name), y: at(offset ?? 0)}));
   // One at the edge leaves no room for the family.
@@ -196,9 +194,9 @@ function column(places, family, lines, at) {
   if (written.length) places.put(family, places.left, Math.min(...written) - HIGH - 1, "right", ink.soft);
 }
 
-/** Stations of the body plan: above their ends, with leaders; those that end where others do along themselves, if there is room. @param {View} view @param {Places} places */
-function stations(view, places) {
-  const {net, curves} = view.store, {ink} = places;
+/** Stations of the body plan: above their ends, with leaders; those that end where others do along themselves, if there is room. @param {Places} places */
+function stations(places) {
+  const {view, ink} = places, {net, curves} = view.store;
   /** @type {Spot[]} */
   const ends = [];
   for (const line of net?.lines ?? []) {
@@ -215,7 +213,7 @@ function stations(view, places) {
   const order = (/** @type {Spot} */ p, /** @type {Spot} */ q) => Math.round(p.x) - Math.round(q.x) || (q.line.offset ?? 0) - (p.line.offset ?? 0);
   ends.sort(order);
   ends.forEach((each, i) => each.gap = Math.min(each.x - (ends[i - 1]?.x ?? -Infinity), (ends[i + 1]?.x ?? Infinity) - each.x));
-  const written = new Set(), spots = spotsOf(view, places), alone = ends.filter(({gap}) => gap > TOLD);
+  const written = new Set(), spots = spotsOf(places), alone = ends.filter(({gap}) => gap > TOLD);
   const long = Math.max(...ends.map(({name}) => places.wide(name)), 0), top = Math.max(view.at(0, 0, view.box().z1, 1)[1] - 14, long + 6);
   const room = Math.floor((view.width - 8) / UPRIGHT);
   for (const {key} of alone) written.add(key);
@@ -235,9 +233,9 @@ function stations(view, places) {
   within(places, spots, written, FREE_GAP);
 }
 
-/** Where lines of the view's own family meet upright lines, and how far their neighbours are there, px. @param {View} view @param {Places} places @returns {Spot[]} */
-function spotsOf(view, places) {
-  const {net} = view.store, {ink} = places, body = view.kind === "body", from = Math.max(places.left, 0), n = Math.floor((view.width - from) / COLUMN);
+/** Where lines of the view's own family meet upright lines, and how far their neighbours are there, px. @param {Places} places @returns {Spot[]} */
+function spotsOf(places) {
+  const {view, ink} = places, {net} = view.store, body = view.kind === "body", from = Math.max(places.left, 0), n = Math.floor((view.width - from) / COLUMN);
   const middle = view.at(body ? 0 : view.midship, 0, 0, 1)[0];
   /** @type {{id: number, y: number}[][]} */
   const met = Array.from({length: Math.max(n, 0)}, () => []);
@@ -274,11 +272,11 @@ function within(places, spots, written, least) {
   }
 }
 
-/** The others stand above the drawing in two rows, each with a leader to a place of its line. @param {View} view @param {Places} places @param {Spot[]} spots @param {Set<string>} written */
-function led(view, places, spots, written) {
-  const {x1, y1, z1} = view.box(), top = Math.max(view.at(x1, y1, z1, 1)[1] - 6, EDGE + 24), far = view.width - 4;
+/** The others stand above the drawing in two rows, each with a leader to a place of its line. @param {Places} places @param {Spot[]} spots @param {Set<string>} written */
+function led(places, spots, written) {
+  const {view} = places, {x1, y1, z1} = view.box(), top = Math.max(view.at(x1, y1, z1, 1)[1] - 6, EDGE + 24), far = view.width - 4;
   const wide = (/** @type {Spot} */ {name}) => places.wide(name), widest = Math.max(...spots.map(wide), 0), room = widest / 2 + 5;
-  const chosen = knees(view, places, spots, written, top, room), xs = spread(chosen.map(({knee}) => knee), chosen.map(() => room), places.left + room / 2, far - widest / 2 + room / 2);
+  const chosen = knees(places, spots, written, top, room), xs = spread(chosen.map(({knee}) => knee), chosen.map(() => room), places.left + room / 2, far - widest / 2 + room / 2);
   let low = -Infinity;
   chosen.forEach((each, i) => {
     const up = xs[i] - wide(each) / 2 < low + 6 ? 12 : 0;
@@ -288,9 +286,9 @@ function led(view, places, spots, written) {
   });
 }
 
-/** Where leaders end on lines that have no name yet, and where they leave the drawing, from the left: all slant, so that none crosses another. @param {View} view @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} top @param {number} room */
-function knees(view, places, spots, written, top, room) {
-  const middle = view.at(view.midship, 0, 0, 1)[0], way = view.kind === "half" ? -1 : 1, far = view.width - 4;
+/** Where leaders end on lines that have no name yet, and where they leave the drawing, from the left: all slant, so that none crosses another. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} top @param {number} room */
+function knees(places, spots, written, top, room) {
+  const {view} = places, middle = view.at(view.midship, 0, 0, 1)[0], way = view.kind === "half" ? -1 : 1, far = view.width - 4;
   const named = (/** @type {string} */ line) => written.has(`${line}true`) || written.has(`${line}false`);
   /** @type {(Spot & {knee: number})[]} */
   const chosen = [];

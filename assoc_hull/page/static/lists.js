@@ -4,8 +4,6 @@ import {Asker} from "./asker.js";
 import {button, link, make, paragraph, tableOf} from "./elements.js";
 import {alongCurve} from "./ways.js";
 
-/** @typedef {import("./page.js").Page} Page */
-
 /** @typedef {{kind: string, object: string, place: number[] | null, text: string}} Finding */
 
 /** The points of the chosen curve, as a table; it is made anew when another curve or state is shown. */
@@ -56,7 +54,7 @@ export class Problems extends Asker {
     this.shown = "";
     /** @type {Finding[] | null} */
     this.found = null;
-    /** What was refused last; its bubble goes with the next press, this stays until an edit is made. @type {import("./store.js").Refusal | null} */
+    /** What was refused last; its bubble goes with the next press, this stays until an edit is made. @type {Refusal | null} */
     this.refusal = null;
     this.count = make("span", {className: "count"});
     box.closest("details")?.querySelector("summary")?.append(this.count);
@@ -109,7 +107,7 @@ export class LineChoice {
     this.select.onchange = () => {
       if (this.select.value) page.choose(null, Number(this.select.value));
     };
-    this.shown = /** @type {import("./net.js").Net | null} */ (null);
+    this.shown = /** @type {Net | null} */ (null);
     box.append(this.select);
   }
 

@@ -3,9 +3,6 @@
 
 import {signed} from "./units.js";
 
-/** @typedef {import("./page.js").Page} Page */
-/** @typedef {import("./store.js").Store} Store */
-
 /** @param {Page} page */
 export function keepLooks(page) {
   const {show, tools: {radius, ...tools}, gain, squeeze, theme} = page.store;
@@ -55,7 +52,7 @@ export function layRows(page) {
   if (box.dataset.laid === key) return;
   box.dataset.laid = key;
   box.dataset.squeeze = String(store.squeeze); // titles stand in the middle, unless the drawing is all there
-  const want = (/** @type {import("./view.js").View} */ view) => view.heightFor(wide, view.kind === "body" ? 1 : store.squeeze);
+  const want = (/** @type {View} */ view) => view.heightFor(wide, view.kind === "body" ? 1 : store.squeeze);
   // Where one view is seen at a time it is as high as it fills; the wire is turned, and has room for that.
   box.style.setProperty("--alone", `${Math.round(store.tab === "wire" ? 0.75 * wide : want(views[store.tab]))}px`);
   for (const view of [views.profile, views.half]) box.style.setProperty(`--${view.kind}`, `${Math.round(Math.min(Math.max(want(view), LEAST), Math.max(SHARE * high, LEAST)))}px`);

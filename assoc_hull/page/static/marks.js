@@ -3,8 +3,6 @@
 import {signed} from "./units.js";
 import {ADOPTED, CROSSING, PLACED, SHARED, WATCHED} from "./net.js";
 
-/** @typedef {import("./view.js").View} View */
-/** @typedef {import("./net.js").Point} Point */
 /** @typedef {Record<string, string>} Ink */
 
 const CLOSE = 12; // px between the points of a view from which on all are drawn
@@ -176,7 +174,7 @@ function drawHeld(view, g, ink) {
   beside(view, g, ink.paper, ink.hot, signed(1e3 * held.amount, 1, "mm"), x, y);
 }
 
-/** @param {import("./store.js").Held} held @returns {number[][]} */
+/** @param {Held} held @returns {number[][]} */
 function waysOf(held) {
   if (held.how === "pull") return held.way ? [held.way] : [];
   return [...held.free].map((name) => ["x", "y", "z"].map((each) => each === name ? 1 : 0));

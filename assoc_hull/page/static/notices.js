@@ -3,9 +3,6 @@
 import {make} from "./elements.js";
 import {signed} from "./units.js";
 
-/** @typedef {import("./page.js").Page} Page */
-/** @typedef {import("./store.js").Store} Store */
-
 const READ = 6000; // ms
 const WIDE = 440, REASONS = 3;
 

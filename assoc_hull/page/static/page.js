@@ -17,7 +17,6 @@ import {farthestDrawn, paintHull, paintOverlay} from "./paint.js";
 import {makeBar, openPalette} from "./bar.js";
 import {choose, find, goTo, stepCurve, stepPoint} from "./ways.js";
 
-/** @typedef {import("./view.js").Kind} Kind */
 /** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */
 /** @typedef {{send: (message: object) => void}} Link */
 /** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, within?: AbortSignal, upload?: (file: File) => Promise<any>}} Options */
@@ -39,15 +38,12 @@ export class Page {
     root.dataset.tab = this.store.tab;
     this.speaker = new Speaker(root);
     this.bar = makeBar(this);
-    const views = make("main"), aside = make("aside"), foot = make("footer");
-    views.className = "views";
-    aside.setAttribute("aria-label", "Point, curve, edit");
+    const views = make("main", {className: "views"}), aside = make("aside", {ariaLabel: "Point, curve, edit"});
     this.banner = make("div", {className: "banner"});
     this.banner.setAttribute("role", "status");
     this.status = make("span");
     this.figures = make("span");
-    foot.append(this.status, this.figures);
-    root.append(this.bar.element, this.banner, views, aside, foot);
+    root.append(this.bar.element, this.banner, views, aside, make("footer", {}, this.status, this.figures));
     const length = {o: 0, s: 1};
     this.views = Object.fromEntries(KINDS.map((kind) => [kind, new View(kind, this.store, kind === "profile" || kind === "half" ? length : {o: 0, s: 1}, views)]));
     this.views.profile.partner = this.views.half;
@@ -214,7 +210,7 @@ export class Page {
 
   // ---- drawing: at most one frame waits
 
-  /** @param {import("./store.js").Stale} what */
+  /** @param {Stale} what */
   #stale(what) {
     if (what === "panel") this.panelStale = true;
     else for (const view of Object.values(this.views)) {
@@ -265,7 +261,7 @@ export class Page {
     this.status.textContent = words;
   }
 
-  /** A fair answer and a lead are looked at before they are made. @param {import("./store.js").Held} held @param {Record<string, number>} wish */
+  /** A fair answer and a lead are looked at before they are made. @param {Held} held @param {Record<string, number>} wish */
   #proposed(held, wish) {
     const {tools, net} = this.store, point = net?.points.get(held.row), far = (1e3 * (held.amount ?? 0)).toFixed(1);
     if (!point) return false;

@@ -5,9 +5,6 @@ import {diamond, drawHandles} from "./marks.js";
 import {drawLabels} from "./labels.js";
 import {drawBeside, drawPicture} from "./files.js";
 
-/** @typedef {import("./view.js").View} View */
-/** @typedef {import("./wire.js").Curve} Curve */
-/** @typedef {import("./wire.js").Frame} Frame */
 /** @typedef {Record<string, string>} Ink */
 
 const FLATS = 1;

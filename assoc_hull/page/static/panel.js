@@ -1,10 +1,9 @@
 // The panel at the right: the point, its curve, what the edit does, who signs.
 
-import {button, link, make, paragraph} from "./elements.js";
+import {button, form, link, make, paragraph} from "./elements.js";
 import {ACTIONS, keyWords} from "./actions.js";
 import {Numbers} from "./hydrostatics.js";
-import {Past} from "./history.js";
-import {WhyPanel} from "./why.js";
+import {Past, WhyPanel} from "./history.js";
 import {arcLength, inflections} from "./hermite.js";
 import {farthest} from "./paint.js";
 import {Beside, Files} from "./files.js";
@@ -16,8 +15,6 @@ import {Proposal, farWords} from "./propose.js";
 import {CROSSING} from "./net.js";
 import {count, millimetres, signed, typedNumber} from "./units.js";
 
-/** @typedef {import("./page.js").Page} Page */
-
 const AXES = ["x", "y", "z"];
 const WAYS = ["forward of AP", "from the centre plane", "above the base line"];
 const PLANES = /** @type {Record<string, [number, number]>} */ ({sections: [1, 2], frames: [1, 2], waterlines: [0, 1], diagonals: [0, 1]});
@@ -28,16 +25,12 @@ export class Panel {
   constructor(page, element) {
     this.page = page;
     this.parts = Object.fromEntries(["Proposal", "Point", "Curve", "Edit", "Pull", "Why", "History", "Hydrostatics", "Fair", "Vary", "Points", "Problems", "Export", "Beside", "Signed as"].map((title) => {
-      const box = make("details"), head = make("summary"), heading = make("h2"), body = make("div");
-      box.open = OPEN.includes(title);
+      const body = make("div"), box = make("details", {open: OPEN.includes(title)}, make("summary", {}, make("h2", {textContent: title})), body);
       box.ontoggle = () => {
         const asker = [this.why, this.numbers].find((each) => each.box === body);
         if (asker) asker.led = box.open;
         page.store.changed("panel");
       };
-      heading.textContent = title;
-      head.append(heading);
-      box.append(head, body);
       element.append(box);
       return [title, body];
     }));
@@ -67,19 +60,16 @@ export class Panel {
     this.radii = [0, 1].map((i) => this.#radius(i));
     const made = this.#switches(["fair-pull", "pinned", "insert", "reshape", "fair-shape"]), ofPoint = this.#switches(["knuckle", "smooth", "tangent", "pin", "delete"]);
     this.switches = [...made, ...ofPoint];
-    this.pointForm = make("div", {className: "form"});
-    this.pointForm.append(...ofPoint.map(({found}) => found));
+    this.pointForm = form(...ofPoint.map(({found}) => found));
     this.acts.add(this.pointForm);
     this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
-    const form = make("div", {className: "form"});
-    form.append(...made.map(({found}) => found));
-    this.parts.Pull.append(form);
+    this.parts.Pull.append(form(...made.map(({found}) => found)));
   }
 
   /** Buttons of actions. @param {string[]} ids */
   #switches(ids) {
     return ids.map((id) => {
-      const action = /** @type {import("./actions.js").Action} */ (ACTIONS.find((each) => each.id === id)), found = button(action.label?.(this.page) ?? "", () => action.run(this.page));
+      const action = /** @type {Action} */ (ACTIONS.find((each) => each.id === id)), found = button(action.label?.(this.page) ?? "", () => action.run(this.page));
       found.dataset.action = id;
       found.title = `${action.words} (${action.keys.map(keyWords).join(", ")})`;
       return {action, found};
@@ -131,14 +121,7 @@ export class Panel {
 
   /** @param {HTMLElement} box @param {[string, string | Node][]} rows */
   #table(box, rows) {
-    const list = make("dl");
-    for (const [name, value] of rows) {
-      const term = make("dt"), what = make("dd");
-      term.textContent = name;
-      what.append(value);
-      list.append(term, what);
-    }
-    box.replaceChildren(list);
+    box.replaceChildren(make("dl", {}, ...rows.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)])));
   }
 
   /** @param {HTMLElement} box @param {string} words */
@@ -191,7 +174,7 @@ export class Panel {
     return millimetres(Math.hypot(now[0] - then[0], now[1] - then[1], now[2] - then[2]));
   }
 
-  /** @param {import("./net.js").Point} point @param {string} name @param {number} axis @param {number} value */
+  /** @param {Point} point @param {string} name @param {number} axis @param {number} value */
   #field(point, name, axis, value) {
     const field = make("input", {inputMode: "decimal"});
     field.value = value.toFixed(4);
@@ -213,7 +196,7 @@ export class Panel {
     return field;
   }
 
-  /** @param {import("./net.js").Point} point */
+  /** @param {Point} point */
   #enter(point) {
     const values = Object.fromEntries([...point.free].map((name) => [name, typedNumber(this.fields[AXES.indexOf(name)])]));
     const {tools} = this.page.store;

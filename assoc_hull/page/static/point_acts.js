@@ -4,8 +4,6 @@ import {button, make, paragraph} from "./elements.js";
 import {ADOPTED, CROSSING, PLACED} from "./net.js";
 import {typedNumber} from "./units.js";
 
-/** @typedef {import("./page.js").Page} Page */
-
 const FARTHEST = 50; // m; no pull is as large
 
 /** Roles that a crossing may be given; of its two lines the first is a. @type {[string | null, string][]} */
@@ -14,7 +12,7 @@ const ROLES = [[null, "by the rule"], ["shared", "shared: both lines are made th
 /** @param {Page} page */
 const chosen = ({store: {net, selection}}) => (selection.row === null ? undefined : net?.points.get(selection.row));
 
-/** The name of a point as one of the chosen line: what is said of it is said of that line. @param {Page} page @param {import("./net.js").Point} point */
+/** The name of a point as one of the chosen line: what is said of it is said of that line. @param {Page} page @param {Point} point */
 function onChosen({store: {net, selection}}, {a, b, name}) {
   if (b < 0 || !net || (selection.curve !== a && selection.curve !== b)) return name;
   const own = net.curveName(selection.curve), other = net.curveName(selection.curve === a ? b : a);
@@ -50,7 +48,7 @@ export const remove = {
   },
 };
 
-/** A choice of the roles of a crossing. @param {Page} page @param {import("./net.js").Point} point */
+/** A choice of the roles of a crossing. @param {Page} page @param {Point} point */
 export function roleChoice(page, point) {
   const choice = make("select", {ariaLabel: "role of the point"});
   choice.append(new Option("role: change it …", ""), ...ROLES.map(([, words], i) => new Option(words, String(i))));

@@ -5,8 +5,6 @@ import {button, form} from "./elements.js";
 import {farthestDrawn} from "./paint.js";
 import {millimetres, signed} from "./units.js";
 
-/** @typedef {import("./page.js").Page} Page */
-
 /** @typedef {{normal: number | null, moved: number, volume_change: number | null, lcb_change: number | null, notes?: string[], refused: string[]}} Cost */
 
 /** How far points move off the hull, and lines between them, where that is farther, m. @param {number | null} normal @param {number} drawn */
@@ -15,7 +13,7 @@ export function farWords(normal, drawn) {
   return `${millimetres(normal ?? 0)} off the hull${drawn > (normal ?? 0) + 1e-4 ? `, ${millimetres(drawn)} between points` : ""}`;
 }
 
-/** What the ghost that is shown would do. @param {Cost} cost @param {import("./store.js").Store} store */
+/** What the ghost that is shown would do. @param {Cost} cost @param {Store} store */
 export function costWords({normal, volume_change: volume, lcb_change: lcb}, {ghost, curves}) {
   const far = farWords(normal, ghost ? farthestDrawn(ghost, curves) : 0);
   return [

@@ -1,7 +1,5 @@
 // A line re-shaped through places that are clicked.
 
-/** @typedef {import("./page.js").Page} Page */
-
 const AGAIN = 12; // px: a press so near a place takes hold of it
 const SNAP = 2; // px
 const PAUSE = 400; // ms without an arrow: what follows is looked at
@@ -26,7 +24,7 @@ export class Shaper {
     page.say("Click where the line is to pass, drag a place to change it, Backspace removes the last. Enter asks for the answer, Esc gives up.");
   }
 
-  /** Takes hold of a place, or makes one; gives its number. @param {import("./view.js").View} view @param {number[] | null} place @param {number} x @param {number} y @returns {number | null} */
+  /** Takes hold of a place, or makes one; gives its number. @param {View} view @param {number[] | null} place @param {number} x @param {number} y @returns {number | null} */
   press(view, place, x, y) {
     const {store} = this.page, shaping = store.shaping;
     if (!shaping) return null;
@@ -44,7 +42,7 @@ export class Shaper {
     return near < 0 ? shaping.places.length - 1 : near;
   }
 
-  /** On a line that crosses, where so near: beside it would be two points in one place. @param {import("./view.js").View} view @param {number[]} place */
+  /** On a line that crosses, where so near: beside it would be two points in one place. @param {View} view @param {number[]} place */
   #snap(view, place) {
     const {store} = this.page, curve = store.shaping?.curve ?? -1, axis = this.#along(curve), reach = SNAP / (axis === view.b ? view.sy : view.axis.s);
     let best = null, least = reach;
@@ -58,7 +56,7 @@ export class Shaper {
   /** The coordinate that grows along a line: heights of sections, lengths of all others. @param {number} curve */
   #along(curve) { return this.page.store.net?.lineOf(curve)?.axis === 0 ? 2 : 0; }
 
-  /** Arrows move the last place by so much (m); without one, the chosen point is the first. @param {import("./view.js").View} view @param {[number, number]} way @param {number} far */
+  /** Arrows move the last place by so much (m); without one, the chosen point is the first. @param {View} view @param {[number, number]} way @param {number} far */
   nudge(view, way, far) {
     const {store} = this.page, {shaping, selection} = store, line = store.net?.lineOf(shaping?.curve ?? -1);
     if (!shaping || !line) return;
@@ -73,7 +71,7 @@ export class Shaper {
     this.timer = setTimeout(() => this.look(), PAUSE);
   }
 
-  /** @param {import("./view.js").View} view @param {number} which @param {number[] | null} place */
+  /** @param {View} view @param {number} which @param {number[] | null} place */
   to(view, which, place) {
     const {store} = this.page;
     if (place) this.#snap(view, place);

@@ -5,8 +5,6 @@ import {button, form, make, paragraph} from "./elements.js";
 import {costWords} from "./propose.js";
 import {typedNumber} from "./units.js";
 
-/** @typedef {import("./page.js").Page} Page */
-
 /** @typedef {{name: string, unit: string, meaning: string, value: number | null, low: number | null, high: number | null, reason: string | null}} Parameter */
 
 /** How much one press on more or less is. @type {Record<string, number>} */

@@ -3,9 +3,6 @@
 import {make} from "./elements.js";
 import {bezier} from "./hermite.js";
 
-/** @typedef {import("./wire.js").Curve} Curve */
-/** @typedef {import("./net.js").Line} Line */
-/** @typedef {import("./store.js").Store} Store */
 /** @typedef {"body" | "profile" | "half" | "wire"} Kind */
 /** Lengths of the ship on the screen; profile and half-breadth plan share one. @typedef {{o: number, s: number}} Axis */
 /** A name and the room that it takes: left, top, right, bottom. @typedef {{text: string, box: number[], colour: string, turned: boolean}} Name */
@@ -37,17 +34,13 @@ export class View {
     this.fitted = true;
     this.stale = {hull: true, overlay: true};
     this.element = make("section", {className: `view view-${kind}`, ariaLabel: TITLES[kind]});
-    const head = make("header"), title = make("h2", {textContent: TITLES[kind]});
     this.note = make("span", {className: "note"});
-    head.append(title, this.note);
-    this.head = head;
+    this.head = make("header", {}, make("h2", {}, TITLES[kind]), this.note);
     this.lower = make("canvas");
-    this.upper = make("canvas");
-    this.upper.tabIndex = 0;
+    this.upper = make("canvas", {tabIndex: 0, ariaLabel: `${TITLES[kind]}: drawing`});
     this.upper.setAttribute("role", "application");
-    this.upper.setAttribute("aria-label", `${TITLES[kind]}: drawing`);
     this.tip = make("div", {className: "tip", hidden: true});
-    this.element.append(this.lower, this.upper, head, this.tip);
+    this.element.append(this.lower, this.upper, this.head, this.tip);
     parent.append(this.element);
     /** @type {{id: number, path: Float32Array}[]} */
     this.paths = [];
@@ -314,7 +307,6 @@ export class View {
     return this.rowsShown;
   }
 }
-
 
 const PARTS = 6;
 

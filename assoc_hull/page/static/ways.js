@@ -1,8 +1,6 @@
 // The ways to what is chosen, named, found, or next.
 
-/** @typedef {import("./page.js").Page} Page */
-
-/** Points of a curve in their order along it. @param {import("./store.js").Store} store @param {number} id @returns {number[]} */
+/** Points of a curve in their order along it. @param {Store} store @param {number} id @returns {number[]} */
 export function alongCurve(store, id) {
   const c = store.curves.get(id), rows = store.net?.rowsOf.get(id) ?? [];
   const where = (/** @type {number} */ row) => {

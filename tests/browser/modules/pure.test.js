@@ -5,7 +5,7 @@ import {readFileSync} from "node:fs";
 import {test} from "node:test";
 import {ACTIONS, keyName, keyWords} from "./actions.js";
 import {evaluate, middleMovement, normalMovement} from "./hermite.js";
-import {Predictor} from "./predict.js";
+import {Predictor} from "./hand.js";
 import {alike} from "./net.js";
 import {NET, parseFrame} from "./wire.js";
 
