@@ -1,9 +1,7 @@
 """Threads that answer from copies of the hull, and are stopped in the middle of it.
 
-An answer may take minutes. Nobody need wait for one that is not wanted any more: it ends as Ctrl+C
-ends a script, at the next step of Python in its thread. What it works on is a copy, so nothing is
-left half made. A library that is busy outside Python goes on until it comes back; the threads are
-daemons, and neither a server nor the end of a program waits for them.
+An answer that is not wanted any more ends as Ctrl+C ends a script, between two steps of Python. A
+library that is busy outside Python goes on until it comes back; nobody waits for these threads.
 """
 
 from __future__ import annotations

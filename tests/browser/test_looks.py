@@ -532,6 +532,21 @@ def test_every_line_is_named_in_its_own_view(
         assert both.sum() == len(written)
 
 
+def test_lines_along_the_ship_are_named_in_either_half(
+    open_page: Open, bulk_carrier: ah.Hull
+) -> None:
+    """Most buttocks of the profile are, and most waterlines of the half-breadth plan aft."""
+    hand = open_page(bulk_carrier.snapshot())
+    for kind, family, fore in (("profile", "BTK ", 0.5), ("half", "WL ", 0.05)):
+        middle = hand.ask("(p, kind) => p.views[kind].at(150, 0, 0, 1)[0]", kind)
+        foot = hand.ask("(p, kind) => p.views[kind].at(0, 0, 0, 1)[1]", kind)
+        names = {name.split()[1] for name in bulk_carrier.lines if name.startswith(family)}
+        here = [(each[0], each[1]) for each in hand.ask(NAMED, kind)
+                if each[0] in names and each[1] > 44.0 and each[4] < foot]  # fmt: skip
+        assert len({text for text, x in here if x < middle}) > 0.6 * len(names)
+        assert len({text for text, x in here if x > middle}) > fore * len(names)
+
+
 def test_no_point_that_is_drawn_and_no_mark_covers_a_name(open_page: Open, hull: ah.Hull) -> None:
     """Of the chosen line, of all lines from near, and of a place that a finding names."""
     hand = open_page(hull)

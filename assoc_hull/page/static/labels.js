@@ -194,7 +194,7 @@ function column(places, family, lines, at) {
   if (written.length) places.put(family, places.left, Math.min(...written) - HIGH - 1, "right", ink.soft);
 }
 
-/** Stations of the body plan: above their ends, with leaders; those that end where others do along themselves, if there is room. @param {Places} places */
+/** Stations stand above their ends; those that end where others do along themselves, if there is room. @param {Places} places */
 function stations(places) {
   const {view, ink} = places, {net, curves} = view.store;
   /** @type {Spot[]} */
@@ -260,7 +260,7 @@ function spotsOf(places) {
   return found.sort((p, q) => q.gap - p.gap);
 }
 
-/** Names in lines, along the ship once in either half; where `least` is 0, only where they cover nothing else. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} least */
+/** Names in lines, once in either half; where `least` is 0, only where they cover nothing else. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} least */
 function within(places, spots, written, least) {
   const {view} = places, middle = view.kind === "body" ? view.at(0, 0, 0, 1)[0] : -Infinity;
   for (const {line, name, key, x, y, gap, colour} of spots) {
@@ -272,7 +272,7 @@ function within(places, spots, written, least) {
   }
 }
 
-/** The others stand above the drawing in two rows, each with a leader to a place of its line. @param {Places} places @param {Spot[]} spots @param {Set<string>} written */
+/** The others stand above the drawing in two rows, with leaders. @param {Places} places @param {Spot[]} spots @param {Set<string>} written */
 function led(places, spots, written) {
   const {view} = places, {x1, y1, z1} = view.box(), top = Math.max(view.at(x1, y1, z1, 1)[1] - 6, EDGE + 24), far = view.width - 4;
   const wide = (/** @type {Spot} */ {name}) => places.wide(name), widest = Math.max(...spots.map(wide), 0), room = widest / 2 + 5;
@@ -286,7 +286,7 @@ function led(places, spots, written) {
   });
 }
 
-/** Where leaders end on lines that have no name yet, and where they leave the drawing, from the left: all slant, so that none crosses another. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} top @param {number} room */
+/** Where leaders end on lines without a name, and where they leave the drawing: all slant, so that none crosses another. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} top @param {number} room */
 function knees(places, spots, written, top, room) {
   const {view} = places, middle = view.at(view.midship, 0, 0, 1)[0], way = view.kind === "half" ? -1 : 1, far = view.width - 4;
   const named = (/** @type {string} */ line) => written.has(`${line}true`) || written.has(`${line}false`);

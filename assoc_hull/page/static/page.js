@@ -9,7 +9,7 @@ import {Speaker, placeBubble, writeFoot} from "./notices.js";
 import {keepLooks, layRows, readInk, restoreLooks, themeOf} from "./looks.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
-import {Shaper} from "./reshape.js";
+import {Shaper} from "./propose.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
 import {count} from "./units.js";
