@@ -1,4 +1,8 @@
-"""What panels ask about the hull in numbers and words: hydrostatics, sectional areas, why."""
+"""What panels ask about the hull in numbers and words.
+
+Hydrostatics and sectional areas, why something moved, where lines are wavy, which parameters there
+are.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +15,9 @@ from assoc_hull.analysis.hydrostatics.record import FIELDS, Hydrostatics, Record
 from assoc_hull.analysis.hydrostatics.section_areas import sectional_areas
 from assoc_hull.edit.explain.causes import Why
 from assoc_hull.hull.hull import Hull
+from assoc_hull.variation.carrying.admissible_values import list_parameters
 
-__all__ = ["describe_hydrostatics", "describe_why"]
+__all__ = ["describe_fairness", "describe_hydrostatics", "describe_parameters", "describe_why"]
 
 _SHOWN = ("volume", "displacement", "lcb", "kb", "bmt", "bml", "kmt", "lcf", "waterplane_area",
           "wetted_surface", "lwl", "bwl", "cb", "cp", "cm", "cw")  # fmt: skip
@@ -26,6 +31,7 @@ _SLIGHT = 5e-5
 """Causes that moved less (m) are counted, but for the first."""
 
 _STOPS = 3
+_LINES, _POINTS = 15, 10
 
 
 def describe_hydrostatics(now: Hull, then: Hull) -> dict[str, Any]:
@@ -91,3 +97,38 @@ def _cause(why: Why, moves: Mapping[str, tuple[float, float]]) -> dict[str, Any]
     return {"name": why.name, "what": why.what, "moved": moved, "left": 0,
             "slid": slid if slid >= _SLIGHT else None,
             "stopped": list(why.stopped[:_STOPS]), "causes": []}  # fmt: skip
+
+
+def describe_fairness(hull: Hull) -> dict[str, Any]:
+    """Give the waviest lines first, how far (m) battens spring there, and points out of line."""
+    found = hull.fairness()
+    wavy = [
+        (record, batten) for record, batten in zip(found.records, found.battens, strict=True)
+        if batten is not None
+    ]  # fmt: skip
+    wavy.sort(key=lambda each: (-each[1].ratio, -each[1].largest, each[0].name))
+    lines = [
+        {"line": record.name, "springs": abs(batten.there), "ratio": batten.ratio, "at": batten.at,
+         "inflections": record.inflections} for record, batten in wavy[:_LINES]
+    ]  # fmt: skip
+    doctor = hull.doctor(top=_POINTS)
+    return {
+        "lines": lines,
+        "unfair": [
+            {"line": each.line, "point": each.point, "residual": each.residual,
+             "ratio": each.ratio} for each in found.unfair[:_POINTS]
+        ],
+        "points": [
+            {"point": each.point, "off": each.off, "score": each.score, "alarm": each.alarm}
+            for each in doctor.findings[:_POINTS]
+        ],
+    }  # fmt: skip
+
+
+def describe_parameters(hull: Hull, of: str | None = None) -> list[dict[str, Any]]:
+    """Give the named parameters of a hull: value, unit, or the reason for none; limits of one."""
+    return [
+        {"name": each.name, "unit": each.unit, "meaning": each.meaning, "value": each.value,
+         "low": each.low, "high": each.high, "reason": each.reason}
+        for each in list_parameters(hull.state, limits=() if of is None else (of,))
+    ]  # fmt: skip

@@ -8,8 +8,12 @@ from __future__ import annotations
 
 import asyncio
 import colorsys
+import contextlib
+import gzip
 import hmac
 import logging
+import re
+import threading
 from collections.abc import Awaitable, Callable, Mapping, MutableMapping
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
@@ -40,6 +44,9 @@ _TYPES = {
     "js": "text/javascript; charset=utf-8",
     "svg": "image/svg+xml",
 }
+# Blocks anywhere, as types stand within expressions; of the others those on lines of their own,
+# since two slashes within a line may be of an address.
+_COMMENTS = re.compile(r"/\*\*.*?\*/ ?|^[ ]*//[^\n]*", re.DOTALL | re.MULTILINE)
 _DARK = 0.72
 """Lightness of the colours of families on dark ground."""
 
@@ -53,12 +60,17 @@ class Visitors:
 
 
 def static_files() -> Mapping[str, tuple[bytes, str]]:
-    """Give all files of the page by name: content and type."""
+    """Give all files of the page by name, as they are sent: content and type.
+
+    Scripts come without their comments, which are a third of them, on the same lines.
+    """
     found = dict[str, tuple[bytes, str]]()
     for each in files("assoc_hull.page").joinpath("static").iterdir():
         ending = each.name.rpartition(".")[2]
         if ending in _TYPES:
-            found[each.name] = each.read_bytes(), _TYPES[ending]
+            body = each.read_bytes()
+            body = _without_comments(body.decode()).encode() if ending == "js" else body
+            found[each.name] = body, _TYPES[ending]
     found["page.css"] = (found["page.css"][0] + family_colours().encode(), _TYPES["css"])
     return found
 
@@ -74,6 +86,10 @@ def family_colours() -> str:
         f".page {{{rules(FAMILY_COLOURS)} }}\n"
         f'.page[data-theme="dark"] {{{rules(dark)} }}\n'
     )  # fmt: skip
+
+
+def _without_comments(script: str) -> str:
+    return _COMMENTS.sub(lambda found: "\n" * found[0].count("\n"), script)
 
 
 def _lighter(colour: str) -> str:
@@ -147,6 +163,7 @@ def make_app(session: Session, token: str, port: int, visitors: Visitors) -> App
     from starlette.routing import Route, WebSocketRoute
 
     known, about = static_files(), headers(port)
+    zipped = {name: gzip.compress(body, 9, mtime=0) for name, (body, _) in known.items()}
     reading = asyncio.Semaphore(1)
 
     async def file(request: Request) -> Response:
@@ -154,7 +171,9 @@ def make_app(session: Session, token: str, port: int, visitors: Visitors) -> App
         if name not in known:
             return Answer("there is no such file", 404, about, "text/plain")
         body, kind = known[name]
-        return Answer(body, 200, about, kind)
+        if "gzip" not in request.headers.get("accept-encoding", ""):
+            return Answer(body, 200, about, kind)
+        return Answer(zipped[name], 200, {**about, "Content-Encoding": "gzip"}, kind)
 
     async def drop(request: Request) -> Response:
         # A page elsewhere cannot send this header unasked, and does not know the token.
@@ -168,7 +187,7 @@ def make_app(session: Session, token: str, port: int, visitors: Visitors) -> App
                 return JSONResponse({"problem": most}, 413, about)
         name = request.query_params.get("name", "")
         async with reading:  # one at a time: a drag goes on meanwhile
-            found = await asyncio.to_thread(_told_of, bytes(body), name)
+            found = await _aside(lambda: _told_of(bytes(body), name))
         return JSONResponse(found, 200, about)
 
     async def talk(socket: WebSocket) -> None:
@@ -185,6 +204,25 @@ def make_app(session: Session, token: str, port: int, visitors: Visitors) -> App
         Route("/{name}", file, methods=["GET"]),
     ]
     return Guard(Starlette(routes=routes), port)
+
+
+async def _aside(job: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+    """Do something in a thread of its own, for which a server that ends does not wait."""
+    loop = asyncio.get_running_loop()
+    done = loop.create_future()
+
+    def give(found: dict[str, Any]) -> None:
+        if not done.done():
+            done.set_result(found)
+
+    def run() -> None:
+        found = job()
+        with contextlib.suppress(RuntimeError):  # the loop has ended, and with it the page
+            loop.call_soon_threadsafe(give, found)
+
+    threading.Thread(target=run, name="assoc-hull page file", daemon=True).start()
+    found: dict[str, Any] = await done
+    return found
 
 
 def _told_of(data: bytes, name: str) -> dict[str, Any]:

@@ -1,7 +1,6 @@
-"""What panels of fairing and variation ask of a copy of the hull: lists, and what would be.
+"""What would be: a window that is faired, edits that somebody thinks of, a variant.
 
-Where lines are wavy, which parameters there are; a window that is faired, edits that somebody
-thinks of, and a variant come as ghosts: nothing is changed.
+Each comes as a ghost of a copy of the hull, with what it does in figures: nothing is changed.
 """
 
 from __future__ import annotations
@@ -17,42 +16,11 @@ from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.hull.hull import Hull
 from assoc_hull.model.objects import Point
 from assoc_hull.page.wire import Frame, FrameKind
-from assoc_hull.variation.carrying.admissible_values import list_parameters
 
-__all__ = [
-    "Ghost", "describe_fairness", "describe_parameters", "ghost_of_edits", "ghost_of_variant",
-    "ghost_of_window",
-]  # fmt: skip
+__all__ = ["Ghost", "ghost_of_edits", "ghost_of_variant", "ghost_of_window"]
 
-_LINES, _POINTS = 15, 10
 _LEAST = 1e-4
 """Points that move less (m) are not counted."""
-
-
-def describe_fairness(hull: Hull) -> dict[str, Any]:
-    """Give the waviest lines first, how far (m) battens spring there, and points out of line."""
-    found = hull.fairness()
-    wavy = [
-        (record, batten) for record, batten in zip(found.records, found.battens, strict=True)
-        if batten is not None
-    ]  # fmt: skip
-    wavy.sort(key=lambda each: (-each[1].ratio, -each[1].largest, each[0].name))
-    lines = [
-        {"line": record.name, "springs": abs(batten.there), "ratio": batten.ratio, "at": batten.at,
-         "inflections": record.inflections} for record, batten in wavy[:_LINES]
-    ]  # fmt: skip
-    doctor = hull.doctor(top=_POINTS)
-    return {
-        "lines": lines,
-        "unfair": [
-            {"line": each.line, "point": each.point, "residual": each.residual,
-             "ratio": each.ratio} for each in found.unfair[:_POINTS]
-        ],
-        "points": [
-            {"point": each.point, "off": each.off, "score": each.score, "alarm": each.alarm}
-            for each in doctor.findings[:_POINTS]
-        ],
-    }  # fmt: skip
 
 
 def ghost_of_window(
@@ -110,15 +78,6 @@ class Ghost:
 
     frame: Frame
     words: dict[str, Any]
-
-
-def describe_parameters(hull: Hull, of: str | None = None) -> list[dict[str, Any]]:
-    """Give the named parameters of a hull: value, unit, or the reason for none; limits of one."""
-    return [
-        {"name": each.name, "unit": each.unit, "meaning": each.meaning, "value": each.value,
-         "low": each.low, "high": each.high, "reason": each.reason}
-        for each in list_parameters(hull.state, limits=() if of is None else (of,))
-    ]  # fmt: skip
 
 
 def ghost_of_variant(copy: Hull, values: Mapping[str, float]) -> Ghost:

@@ -37,6 +37,7 @@ __all__ = [
     "Question",
     "Redo",
     "Sign",
+    "Stop",
     "To",
     "Undo",
     "Vary",
@@ -260,6 +261,13 @@ class Export:
 
 
 @attrs.frozen
+class Stop:
+    """Give up the answer to a question; it is not waited for any more."""
+
+    id: int = attrs.field(validator=_count)
+
+
+@attrs.frozen
 class Check:
     """Look for what is wrong with the hull."""
 
@@ -303,6 +311,7 @@ Message = (
     | Window
     | AskPreview
     | Export
+    | Stop
     | Check
     | Parameters
     | Vary

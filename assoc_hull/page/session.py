@@ -14,7 +14,6 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any, ClassVar, Protocol, cast
 
 import attrs
@@ -30,13 +29,16 @@ from assoc_hull.hull.hull import Hull
 from assoc_hull.io.hull_file.saving import is_behind_file
 from assoc_hull.model.address import address
 from assoc_hull.model.objects import Point
-from assoc_hull.page.answers import describe_hydrostatics, describe_why
+from assoc_hull.page.answers import (
+    describe_fairness,
+    describe_hydrostatics,
+    describe_parameters,
+    describe_why,
+)
 from assoc_hull.page.describe import describe_net, describe_state, net_words
 from assoc_hull.page.files import write_export
 from assoc_hull.page.ghosts import (
     Ghost,
-    describe_fairness,
-    describe_parameters,
     ghost_of_edits,
     ghost_of_variant,
     ghost_of_window,
@@ -62,6 +64,7 @@ from assoc_hull.page.messages import (
     Question,
     Redo,
     Sign,
+    Stop,
     To,
     Undo,
     Vary,
@@ -75,6 +78,7 @@ from assoc_hull.page.past import (
     require_step,
     state_of_step,
 )
+from assoc_hull.page.readers import CopyReaders
 from assoc_hull.page.spare_memory import SpareMemory
 from assoc_hull.page.wire import Frame, FrameKind, pack
 
@@ -129,11 +133,11 @@ class Session:
         self._jobs = deque[_Job]()
         self._awake = threading.Condition()
         self._open = True
-        self._reader = ThreadPoolExecutor(1, "assoc-hull page reader")
+        self._reader = CopyReaders("assoc-hull page reader", 1)
         # A surface takes ten seconds to write: no other answer waits for it.
-        self._writer = ThreadPoolExecutor(1, "assoc-hull page writer")
+        self._writer = CopyReaders("assoc-hull page writer", 1)
         # A fair answer may take minutes: hydrostatics do not wait for it, nor the next one asked.
-        self._answerer = ThreadPoolExecutor(2, "assoc-hull page answerer")
+        self._answerer = CopyReaders("assoc-hull page answerer", 2)
         self._newest = dict[tuple[Client, type[Message]], int]()
         self._opening = hull.snapshot()
         self._shown = hull.state_number
@@ -149,6 +153,9 @@ class Session:
 
     def submit(self, client: Client, message: Message) -> None:
         """Ask for something; the answer comes to the client."""
+        if isinstance(message, Stop):
+            self._stop(client, message.id)
+            return
         with self._awake:
             if isinstance(message, To):
                 self._drop_older(client, message.gesture)
@@ -159,6 +166,17 @@ class Session:
                     held.drag.stop()
             self._jobs.append((client, message))
             self._awake.notify()
+
+    def _stop(self, client: Client, number: int | None = None) -> None:
+        """End the answer to a question, or all that a client waits for, also while others run."""
+        with self._awake:
+            self._jobs = deque(
+                (whose, waiting) for whose, waiting in self._jobs
+                if not (whose is client and isinstance(waiting, Question | Export)
+                        and number in (None, waiting.id))
+            )  # fmt: skip
+        for each in (self._reader, self._writer, self._answerer):
+            each.stop(client, number)
 
     def _drop_older(self, client: Client, gesture: int) -> None:
         """Forget the place that a gesture asked for last, if nobody has begun with it."""
@@ -175,16 +193,15 @@ class Session:
             self._awake.notify()
 
     def close(self) -> None:
-        """End the thread, when the command that runs is done."""
+        """End the thread, when the command that runs is done; answers are not waited for."""
         with self._awake:
             self._open = False
             self._awake.notify()
+        for each in (self._reader, self._writer, self._answerer):
+            each.close()
         # The collector may end a session that is lost in the worker itself.
         if threading.current_thread() is not self._worker:
             self._worker.join()
-        self._reader.shutdown(cancel_futures=True)
-        self._writer.shutdown(cancel_futures=True)
-        self._answerer.shutdown(wait=False, cancel_futures=True)
 
     # ----------------------------------------------------------------------------------
     # In the worker.
@@ -297,6 +314,7 @@ class Session:
         self._clients = [each for each in self._clients if each is not client]
         for key in [key for key in self._newest if key[0] is client]:
             del self._newest[key]
+        self._stop(client)
 
     def _hello(self, client: Client, message: Hello) -> None:
         client.author = message.author
@@ -537,7 +555,7 @@ class Session:
             with self._told(client, message):
                 _answer(client, message.id, write_export(copy, message.form))
 
-        self._writer.submit(write)
+        self._writer.submit(client, message, message.id, write)
 
     def _look(
         self, client: Client, message: Question, job: Callable[[Hull], object]
@@ -579,14 +597,15 @@ class Session:
         finally:
             SIGNED.reset(signed)
 
-    def _read(self, client: Client, message: Message, job: Callable[[], None]) -> None:
+    def _read(self, client: Client, message: Question, job: Callable[[], None]) -> None:
         """Do something with a copy of the hull in the thread of readers; drags go on."""
 
         def told() -> None:
             with self._told(client, message):
                 job()
 
-        (self._answerer if isinstance(message, AskPreview) else self._reader).submit(told)
+        readers = self._answerer if isinstance(message, AskPreview) else self._reader
+        readers.submit(client, type(message), message.id, told)
 
     def _publish(self, before: int) -> None:
         """Tell everybody what has changed since a state."""

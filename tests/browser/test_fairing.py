@@ -1,11 +1,16 @@
 """Fairing on the page: waviest lines, a window by a slider, fair answers, lines that are led."""
 
+import threading
+import time
+from typing import Any
+
 import numpy as np
 import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import Browser, expect
 
 import assoc_hull as ah
-from tests.browser.conftest import Hand, Open
+from assoc_hull.page import PageServer
+from tests.browser.conftest import READY, Hand, Open
 from tests.browser.test_panels import POINT, opened
 
 CALLED = "WL 1.08 x ST 19.75"
@@ -138,3 +143,61 @@ def test_a_wavy_line_is_listed_with_what_its_batten_does_where_it_leads(
     assert "list again" not in box.inner_text()
     hand.ask("(p, name) => p.apply('fuller', [{op: 'pull', point: name, d: 0.005}])", place.point)
     box.get_by_text("before the last edit: list again").wait_for()
+
+
+def test_a_list_that_takes_long_is_stopped_and_the_server_leaves_at_once(
+    browser: Browser, hull: ah.Hull, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A button ends it in the server; what is computed then keeps nobody who wants to leave."""
+    begun = list[float]()
+
+    def endless(*_: Any) -> Any:
+        begun.append(time.monotonic())
+        while True:
+            time.sleep(0.001)
+
+    monkeypatch.setattr("assoc_hull.page.session.describe_fairness", endless)
+    with PageServer(hull, author="anna") as server:
+        context = browser.new_context(viewport={"width": 1440, "height": 840}, bypass_csp=True)
+        page = context.new_page()
+        page.goto(server.address)
+        page.wait_for_selector(READY)
+        hand = Hand(page, server)
+        hand.ask("p => p.panel.open('Fair')")
+        box = page.locator("details:has(h2:text-is('Fair'))")
+        box.get_by_role("button", name="List the waviest lines").click()
+        box.get_by_role("button", name="Stop").click()
+        box.get_by_text("Stopped. Nothing is changed.").wait_for()
+        assert box.get_by_role("button", name="Stop").count() == 0
+        hand.ask("p => p.panel.open('Hydrostatics')")
+        page.locator("details:has(h2:text-is('Hydrostatics')) table").wait_for()
+        box.get_by_role("button", name="List the waviest lines").click()
+        box.get_by_role("button", name="Stop").wait_for()
+        assert len(begun) == 2
+        begin = time.monotonic()
+    assert time.monotonic() - begin < 5.0
+    context.close()
+
+
+def test_a_ghost_that_is_given_up_is_computed_no_longer(
+    open_page: Open, hull: ah.Hull, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Esc ends the fair answer in the server, too."""
+    ended = threading.Event()
+
+    def endless(*_: Any) -> Any:
+        try:
+            while True:
+                time.sleep(0.001)
+        finally:
+            ended.set()
+
+    monkeypatch.setattr("assoc_hull.page.session.ghost_of_edits", endless)
+    hand = open_page(hull)
+    hand.ask("(p, name) => p.panel.proposal.show('pull', [{op: 'pull', point: name, d: 0.01}])",
+             POINT)  # fmt: skip
+    hand.ask("p => p.activeView().upper.focus()")
+    hand.page.locator("aside").get_by_role("button", name="Stop").wait_for()
+    hand.page.keyboard.press("Escape")
+    assert ended.wait(5.0)
+    assert hand.page.locator("aside").get_by_role("button", name="Stop").count() == 0

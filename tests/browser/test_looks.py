@@ -1,5 +1,7 @@
 """What is seen: views, combs, sizes of the screen, names, and that nothing runs when idle."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -486,50 +488,152 @@ def test_what_is_wrong_is_listed_and_found(open_page: Open, hull: ah.Hull) -> No
     assert "before the last edit" in hand.page.locator("aside").inner_text()
 
 
-WRITTEN = (
-    "window.written = []; const kept = CanvasRenderingContext2D.prototype.fillText;"
-    " CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {"
-    " window.written.push([this.canvas.closest('.view')?.className, text, x, y,"
-    " this.measureText(text).width]); return kept.call(this, text, x, y); };"
-)
-"""Keeps what is written on the drawings, and where."""
+NAMED = "(p, kind) => p.views[kind].written.slice(1).map(({text, box}) => [text, ...box])"
+"""The names on a drawing, and the room that each takes: left, top, right, bottom."""
 
 
 def test_names_in_the_body_plan_belong_to_one_line(open_page: Open, bulk_carrier: ah.Hull) -> None:
     """Each family is named; none stands over the centre plane, where aft and fore body meet."""
-    hand = open_page(bulk_carrier.snapshot(), before=WRITTEN)
-    hand.page.evaluate("window.written = []")
-    hand.ask("p => p.store.changed('hull')")
-    hand.settled()
-    written = [each[1:] for each in hand.page.evaluate("window.written") if "body" in each[0]]
+    hand = open_page(bulk_carrier.snapshot())
+    written = hand.ask(NAMED, "body")
     assert {"ST", "WL", "BTK", "DWL", "BL"} <= {text for text, *_ in written}
     middle, deck = hand.ask(
         "p => { const v = p.views.body, b = v.box(); return v.at(0, 0, b.z1, 1); }"
     )
     low = hand.ask("p => p.views.body.at(0, 0, 0, 1)[1]")
-    over = [text for text, x, y, w in written if y < low and x < middle < x + w]
+    over = [text for text, left, top, right, _ in written
+            if deck < top < low and left < middle < right]  # fmt: skip
     assert over == []
     # It has a bulb and a stem above it: its name is at the deck.
-    assert any(text == "20.04" and y < deck for text, _, y, _ in written)
+    assert any(text == "20.04" and foot < deck for text, *_, foot in written)
+
+
+@pytest.mark.parametrize("looks", [{}, {"viewport": {"width": 1100, "height": 700}}])
+@pytest.mark.parametrize("name", ["series60_70", "bulk_carrier"])
+def test_every_line_is_named_in_its_own_view(
+    open_page: Open, name: str, looks: dict[str, Any], request: pytest.FixtureRequest
+) -> None:
+    """Also where lines lie three pixels apart; names lie on no other name and within the view."""
+    ship = request.getfixturevalue(name).snapshot()
+    hand = open_page(ship, **looks)
+    for kind, family in (("body", "ST"), ("profile", "BTK"), ("half", "WL")):
+        wanted = {each.removeprefix(f"{family} ") for each in ship.lines if each.startswith(family)}
+        written = hand.ask(NAMED, kind)
+        width, height = hand.ask("(p, kind) => [p.views[kind].width, p.views[kind].height]", kind)
+        foot = hand.ask("(p, kind) => p.views[kind].at(0, 0, p.views[kind].box().z0, 1)[1]", kind)
+        lines = [each for each in written if each[4] < foot + 1.0]
+        assert wanted - {text for text, *_ in lines} == set()
+        boxes = np.array([each[1:] for each in written])
+        assert boxes.min() >= 0.0
+        assert (boxes[:, 2:] <= [width, height]).all()
+        # Those that share more than an edge.
+        low, high = boxes[:, None, :2] + 0.1, boxes[:, None, 2:] - 0.1
+        both = ((low < boxes[None, :, 2:]) & (high > boxes[None, :, :2])).all(axis=-1)
+        assert both.sum() == len(written)
 
 
 def test_lines_along_the_ship_are_named_in_either_half(
     open_page: Open, bulk_carrier: ah.Hull
 ) -> None:
     """Most buttocks of the profile are, and most waterlines of the half-breadth plan aft."""
-    hand = open_page(bulk_carrier.snapshot(), before=WRITTEN)
+    hand = open_page(bulk_carrier.snapshot())
     for kind, family, fore in (("profile", "BTK ", 0.5), ("half", "WL ", 0.05)):
-        hand.page.evaluate("window.written = []")
-        hand.ask("p => p.store.changed('hull')")
-        hand.settled()
         middle = hand.ask("(p, kind) => p.views[kind].at(150, 0, 0, 1)[0]", kind)
         foot = hand.ask("(p, kind) => p.views[kind].at(0, 0, 0, 1)[1]", kind)
         names = {name.split()[1] for name in bulk_carrier.lines if name.startswith(family)}
-        written = [each[1:] for each in hand.page.evaluate("window.written") if kind in each[0]]
-        left = min(x for _, x, *_ in written) + 30.0
-        here = [(text, x) for text, x, y, _ in written if text in names and x > left and y < foot]
+        here = [(each[0], each[1]) for each in hand.ask(NAMED, kind)
+                if each[0] in names and each[1] > 44.0 and each[4] < foot]  # fmt: skip
         assert len({text for text, x in here if x < middle}) > 0.6 * len(names)
         assert len({text for text, x in here if x > middle}) > fore * len(names)
+
+
+def test_no_point_that_is_drawn_and_no_mark_covers_a_name(open_page: Open, hull: ah.Hull) -> None:
+    """Of the chosen line, of all lines from near, and of a place that a finding names."""
+    hand = open_page(hull)
+    covered = (
+        "async (p, kind) => { const {dotsOf} = await import('/marks.js'), v = p.views[kind],"
+        " spots = dotsOf(v).map((row) => [...v.atPlace(p.store.placeOf(row)), 3]);"
+        " if (p.store.marked) spots.push([...v.atPlace(p.store.marked), 20]);"
+        " return [spots.length, v.written.slice(1).filter(({box: [l, t, r, b]}) => spots.some("
+        "([x, y, reach]) => x > l - reach && x < r + reach && y > t + 3 - reach"
+        " && y < b - 3 + reach)).map(({text}) => text)]; }"
+    )
+    hand.page.mouse.click(*hand.spot(POINT))
+    hand.settled()
+    drawn, under = hand.ask(covered, "body")
+    assert drawn > 15
+    assert under == []
+    hand.near("WL 0.75 x ST 1", scale=150.0)
+    drawn, under = hand.ask(covered, "body")
+    assert drawn > 50
+    assert under == []
+    hand.ask("(p, name) => p.goTo(name, null)", POINT)
+    hand.settled()
+    assert hand.ask(covered, "body")[1] == []
+
+
+def test_a_narrow_screen_has_no_empty_height(open_page: Open, hull: ah.Hull) -> None:
+    """One view at a time is as high as the hull fills, and the panel begins below it."""
+    hand = open_page(hull, viewport={"width": 390, "height": 844})
+    high, top, foot = hand.ask(
+        "p => { const v = p.views.body, b = v.box();"
+        " return [v.height, v.at(0, 0, b.z1, 1)[1], v.at(0, 0, b.z0, 1)[1]]; }"
+    )
+    assert top < 60.0
+    assert high - foot < 45.0
+    assert hand.ask("p => p.views.body.written.length") > 40
+
+
+def test_the_buttons_stay_where_they_are_when_one_changes_its_words(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """Compressed by 10 is a longer word than not compressed."""
+    hand = open_page(hull)
+    boxes = "p => [...document.querySelectorAll('.bar button')].map(b => b.offsetLeft)"
+    before = hand.ask(boxes)
+    hand.ask("p => p.compress(10)")
+    hand.settled()
+    assert hand.ask(boxes) == before
+
+
+def test_a_ghost_of_other_knots_is_drawn_only_where_it_lies_elsewhere(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """A point more in a line is no movement of all of it."""
+    hand = open_page(hull)
+    hand.ask(
+        "p => { const id = p.store.net.findCurve('WL 0.625'), c = p.store.curves.get(id),"
+        " i = 3 * (c.n >> 2), place = [0, 1, 2].map(j => (c.xyz[i + j] + c.xyz[i + 3 + j]) / 2);"
+        " place[1] += 0.05; p.panel.proposal.show('more', [{op: 'insert', curve: 'WL 0.625',"
+        " place, lead: true}]); }"
+    )
+    hand.until("p => p.store.ghost")
+    other, moved = hand.ask(
+        "async p => { const {middleMovement} = await import('/hermite.js');"
+        " const id = p.store.net.findCurve('WL 0.625'), now = p.store.ghost.curves.get(id),"
+        " then = p.store.curves.get(id);"
+        " return [now.n - then.n, [...middleMovement(then, now)]]; }"
+    )
+    assert other != 0
+    assert max(moved) > 0.01
+    assert sum(far < 1e-4 for far in moved) > len(moved) / 3
+
+
+def test_a_refusal_is_read_from_its_first_word(open_page: Open, hull: ah.Hull) -> None:
+    """Its bubble lies within the drawing, however much it says."""
+    hand = open_page(hull)
+    x, y = hand.press(POINT)
+    hand.page.mouse.move(x + 30.0, y)
+    hand.until("p => p.store.refusal && p.pending === 0")
+    bubble, view = (hand.page.locator(each).bounding_box() for each in (".bubble", ".view-body"))
+    assert bubble is not None
+    assert view is not None
+    assert bubble["y"] >= view["y"]
+    assert bubble["y"] + bubble["height"] <= view["y"] + view["height"]
+    assert bubble["x"] >= view["x"]
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.settled()
 
 
 def test_one_view_alone_shows_the_place_that_was_looked_at(open_page: Open, hull: ah.Hull) -> None:

@@ -1,8 +1,7 @@
 // All actions: words, keys, whether they can be done now. And the keys.
 
-import {passes, pin, remove, showChosen} from "./lists.js";
-
-/** @typedef {import("./page.js").Page} Page */
+import {passes, pin, remove} from "./point_acts.js";
+import {showChosen} from "./ways.js";
 
 /** @typedef {{id: string, words: string, keys: string[], label?: (page: Page) => string, pressed?: (page: Page) => boolean, enabled?: (page: Page) => boolean, run: (page: Page) => void}} Action */
 
@@ -18,7 +17,7 @@ const toggle = (what, words, key) => ({
   },
 });
 
-/** @param {import("./view.js").Kind} kind @param {string} key @param {string} words @returns {Action} */
+/** @param {Kind} kind @param {string} key @param {string} words @returns {Action} */
 const enlarge = (kind, key, words) => ({
   id: `view-${kind}`, words, keys: [key], pressed: (page) => page.store.maximised === kind,
   run: (page) => page.maximise(kind),
@@ -202,9 +201,9 @@ export class Keys {
     else if (at instanceof Element && at.closest("aside, .bar")) page.activeView().upper.focus({preventScroll: true});
     else if (store.marked) {
       store.marked = null;
-      store.changed("overlay");
+      store.changed("hull", "overlay");
     }
-    else if (store.maximised) page.maximise(/** @type {import("./view.js").Kind} */ (store.maximised));
+    else if (store.maximised) page.maximise(/** @type {Kind} */ (store.maximised));
     else store.select(null, null);
   }
 

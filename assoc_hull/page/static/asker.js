@@ -1,45 +1,10 @@
 // What panels that ask the server have in common.
 
-/** @typedef {import("./page.js").Page} Page */
+import {button, make, paragraph} from "./elements.js";
 
 const PAUSE = 250; // ms: not at every step of a burst of edits
-
-/** @param {string} words @param {() => void} run */
-export function button(words, run) {
-  const found = document.createElement("button");
-  found.type = "button";
-  found.textContent = words;
-  found.onclick = run;
-  return found;
-}
-
-/** @param {string} words @param {() => void} run */
-export function link(words, run) {
-  const found = button(words, run);
-  found.className = "link";
-  return found;
-}
-
-/** @param {string} words @param {string} [name] */
-export function paragraph(words, name = "") {
-  const found = document.createElement("p");
-  found.textContent = words;
-  found.className = name;
-  return found;
-}
-
-/** A table with words above it and heads of its columns. @param {string} words @param {string[]} titles */
-export function tableOf(words, titles) {
-  const table = document.createElement("table"), head = table.createTHead().insertRow();
-  table.createCaption().textContent = words;
-  for (const title of titles) {
-    const cell = document.createElement("th");
-    cell.scope = "col";
-    cell.textContent = title;
-    head.append(cell);
-  }
-  return table;
-}
+const LONG = 700; // ms: an answer that takes longer can be stopped
+const ANSWERS = ["compare", "export", "fairness", "hydrostatics", "parameters", "preview", "vary", "window"];
 
 export class Asker {
   /** @param {Page} page @param {HTMLElement} box */
@@ -54,19 +19,46 @@ export class Asker {
     this.timer = undefined;
     this.words = paragraph("");
     this.words.setAttribute("role", "status");
-    this.list = document.createElement("div");
+    this.list = make("div");
+    /** The question that is not answered yet. */
+    this.waits = 0;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.late = undefined;
+    this.halt = button("Stop", () => this.stop());
   }
 
   get open() { return this.box.closest("details")?.open ?? false; }
 
-  /** @param {object} message @param {string} words */
+  /** @param {{t: string, apply?: boolean, [name: string]: unknown}} message @param {string} words */
   ask(message, words) {
     this.page.keys.finish(); // or the server would let go of what is in hand
+    this.arrived(this.waits);
     this.asked = this.page.request(message);
     this.words.textContent = words;
+    if (message.apply || !ANSWERS.includes(message.t)) return;
+    this.waits = this.asked;
+    this.late = setTimeout(() => this.words.after(this.halt), LONG);
   }
 
-  /** Asks for a ghost: one that comes later for somebody else is not shown. @param {object} message @param {string} words */
+  /** What is asked is answered, or not waited for any more. @param {number} id */
+  arrived(id) {
+    if (id !== this.waits) return;
+    this.waits = 0;
+    clearTimeout(this.late);
+    this.halt.remove();
+  }
+
+  /** Gives up the answer that is waited for; the server ends its work. */
+  stop() {
+    const {page, waits} = this;
+    if (waits && page.shower === this) page.dropGhost();
+    else if (waits) page.giveUp(waits);
+    this.arrived(waits);
+    this.asked = 0;
+    this.words.textContent = "Stopped. Nothing is changed.";
+  }
+
+  /** Asks for a ghost: one that comes later for somebody else is not shown. @param {{t: string, [name: string]: unknown}} message @param {string} words */
   askGhost(message, words) {
     this.page.dropGhost();
     this.ask(message, words);
@@ -91,12 +83,14 @@ export class Asker {
 
   /** The server has gone: nothing is answered any more, and another may not be at the same state. */
   lost() {
+    this.arrived(this.waits);
     this.asked = 0;
     this.key = this.words.textContent = "";
   }
 
   /** The ghost was taken away, by Esc or by another: no answer is waited for. */
   dropped() {
+    if (this.waits === this.ghost) this.arrived(this.waits);
     if (this.asked === this.ghost) this.asked = 0;
     this.words.textContent = "";
   }

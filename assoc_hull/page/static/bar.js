@@ -1,12 +1,11 @@
 // The bar above: the ship, tools, switches, keys; the palette finds actions, points and lines.
 
+import {make} from "./elements.js";
 import {ACTIONS, keyWords} from "./actions.js";
-
-/** @typedef {import("./page.js").Page} Page */
 
 const GROUPS = [["pull", "move", "fine"], ["undo", "redo"], ["combs", "movement", "points", "labels", "compress"], ["fit", "theme", "keys"]];
 const SHORT = /** @type {Record<string, string>} */ ({combs: "Combs", movement: "Movement", points: "Points", labels: "Labels"});
-const TABS = /** @type {[import("./view.js").Kind, string][]} */ ([["body", "Body"], ["profile", "Profile"], ["half", "Half-breadth"], ["wire", "Wire"]]);
+const TABS = /** @type {[Kind, string][]} */ ([["body", "Body"], ["profile", "Profile"], ["half", "Half-breadth"], ["wire", "Wire"]]);
 const HANDS = [
   ["Choose a point or a line", "click"], ["Pull the hull, or move the point", "drag a point"], ["Move along its freedom", "Ctrl + drag"],
   ["Ten times finer (or, with Fine on, coarser); lock an axis", "Alt; Shift"], ["Radius of a pull", "wheel while dragging"], ["Pan, zoom, turn the wire", "drag the ground, wheel, drag the wire"],
@@ -15,56 +14,37 @@ const HANDS = [
 
 /** @param {Page} page */
 export function makeBar(page) {
-  const element = document.createElement("header"), ship = document.createElement("div"), title = document.createElement("h1"), dims = document.createElement("span"), tools = document.createElement("div");
-  element.className = "bar";
-  ship.className = "ship";
-  dims.className = "dims";
-  ship.append(title, dims);
-  tools.className = "tools";
+  const title = make("h1"), dims = make("span", {className: "dims"}), tools = make("div", {className: "tools", ariaLabel: "Tools"});
   tools.setAttribute("role", "toolbar");
-  tools.setAttribute("aria-label", "Tools");
-  const search = document.createElement("input");
-  search.type = "search";
-  search.placeholder = "Find: WL 2 x ST 7";
-  search.setAttribute("aria-label", "Find a point or a line by its name");
+  const search = make("input", {type: "search", placeholder: "Find ST 7", ariaLabel: "Find a point or a line by its name"});
   search.onkeydown = (event) => {
     if (event.key === "Enter") page.find(search.value);
   };
   /** @type {Map<string, HTMLButtonElement>} */
   const buttons = new Map();
   for (const group of GROUPS) {
-    const box = document.createElement("span");
-    box.className = "group";
+    const box = make("span", {className: "group"});
     for (const id of group) {
       const action = ACTIONS.find((each) => each.id === id);
       if (!action) continue;
-      const button = document.createElement("button");
-      button.type = "button";
+      const button = make("button", {type: "button", onclick: () => action.run(page)});
       button.dataset.action = id;
-      button.onclick = () => action.run(page);
       buttons.set(id, button);
       box.append(button);
     }
     tools.append(box);
   }
-  const tabs = document.createElement("nav");
-  tabs.className = "tabs";
-  tabs.setAttribute("aria-label", "Views");
+  const tabs = make("nav", {className: "tabs", ariaLabel: "Views"});
   for (const [kind, words] of TABS) {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.textContent = words;
-    button.dataset.tab = kind;
-    button.onclick = () => {
+    const button = make("button", {type: "button", textContent: words, onclick: () => {
       page.store.maximised = null;
       page.maximise(kind);
-    };
+    }});
+    button.dataset.tab = kind;
     tabs.append(button);
   }
-  element.append(ship, tools, search, tabs);
-  const dialog = document.createElement("dialog");
-  dialog.className = "sheet";
-  dialog.setAttribute("aria-label", "Keys");
+  const element = make("header", {className: "bar"}, make("div", {className: "ship"}, title, dims), tools, search, tabs);
+  const dialog = make("dialog", {className: "sheet", ariaLabel: "Keys"});
   page.root.append(dialog);
   return {
     element,
@@ -73,7 +53,7 @@ export function makeBar(page) {
       search.focus();
       search.select();
     },
-    /** @param {import("./net.js").Particulars} ship @param {number} lines @param {number} points */
+    /** @param {Particulars} ship @param {number} lines @param {number} points */
     name(ship, lines, points) {
       title.textContent = ship.name;
       dims.textContent = `Lpp ${ship.length.toFixed(2)} · B ${ship.breadth.toFixed(2)} · T ${ship.draught.toFixed(2)} · D ${ship.depth.toFixed(2)} m · ${lines} lines · ${points} points`;
@@ -92,7 +72,7 @@ export function makeBar(page) {
     },
     /** @param {string[][]} rows */
     sheet(rows) {
-      const heading = document.createElement("h2"), close = document.createElement("button"), table = document.createElement("table");
+      const heading = make("h2"), close = make("button"), table = make("table");
       heading.textContent = "Hands and keys";
       for (const [words, keys] of [...HANDS, ...rows]) {
         const line = table.insertRow();
@@ -100,8 +80,7 @@ export function makeBar(page) {
         const cell = line.insertCell();
         cell.textContent = keys;
       }
-      const note = document.createElement("p");
-      note.textContent = "Single letters act while a drawing has the focus: click it, or reach it with Tab.";
+      const note = make("p", {textContent: "Single letters act while a drawing has the focus: click it, or reach it with Tab."});
       close.type = "button";
       close.textContent = "Close";
       close.onclick = () => dialog.close();
@@ -126,7 +105,7 @@ const MOST = 12;
 
 /** @param {Page} page @param {Row[]} acts all that can be done now */
 export function openPalette(page, acts) {
-  const dialog = document.createElement("dialog"), field = document.createElement("input"), list = document.createElement("ul");
+  const dialog = make("dialog"), field = make("input"), list = make("ul");
   dialog.className = "sheet palette";
   dialog.setAttribute("aria-label", "What to do");
   field.type = "search";
@@ -154,7 +133,7 @@ export function openPalette(page, acts) {
       ...names.slice(0, MOST).map(({name}) => ({words: name, keys: "go there", run: () => page.find(name)}))].slice(0, MOST);
     at = 0;
     list.replaceChildren(...rows.map((row, i) => {
-      const item = document.createElement("li"), keys = document.createElement("kbd");
+      const item = make("li"), keys = make("kbd");
       item.id = `palette-${i}`;
       item.setAttribute("role", "option");
       keys.textContent = row.keys;
@@ -163,8 +142,7 @@ export function openPalette(page, acts) {
       return item;
     }));
     if (!rows.length) {
-      const none = document.createElement("li");
-      none.id = "palette-0";
+      const none = make("li", {id: "palette-0"});
       none.setAttribute("role", "option");
       none.textContent = `Nothing is called so: type fewer letters, or a name such as ${page.store.net?.byName[0]?.[0] ?? "WL 1"}.`;
       list.append(none);

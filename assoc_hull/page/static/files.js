@@ -1,25 +1,19 @@
 // Files: those that the server writes, and those that are dropped: a hull beside, a picture to trace.
 
-import {Asker, button, paragraph} from "./asker.js";
+import {button, form, make, paragraph} from "./elements.js";
+import {Asker} from "./asker.js";
 import {typedNumber} from "./units.js";
-import {parseFrame} from "./net.js";
-
-/** @typedef {import("./page.js").Page} Page */
-/** @typedef {import("./view.js").View} View */
+import {parseFrame} from "./wire.js";
 
 const FORMS = [["pdf", "Lines plan, PDF"], ["svg", "Lines plan, SVG"], ["dxf", "All lines as splines, DXF"], ["csv", "Table of offsets, CSV"], ["xlsx", "Table of offsets, workbook"],
   ["hull.json", "The hull itself, as text"], ["iges", "Surface, IGES"], ["step", "Surface, STEP"], ["stl", "Closed mesh, STL"]];
 
 export class Files extends Asker {
-  /** @param {import("./page.js").Page} page @param {HTMLElement} box */
+  /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
-    const choice = this.choice = document.createElement("select"), form = document.createElement("div");
-    choice.setAttribute("aria-label", "form of the file");
-    choice.replaceChildren(...FORMS.map(([value, words]) => new Option(words, value)));
-    form.className = "form";
-    form.append(choice, button("Write the file", () => this.write(choice.value)));
-    box.append(form, this.words);
+    const choice = this.choice = make("select", {ariaLabel: "form of the file"}, ...FORMS.map(([value, words]) => new Option(words, value)));
+    box.append(form(choice, button("Write the file", () => this.write(choice.value))), this.words);
   }
 
   render() {}
@@ -36,11 +30,9 @@ export class Files extends Asker {
     const {name, data, notes, bytes, what} = message.value;
     const raw = atob(data), whole = new Uint8Array(raw.length);
     for (let i = 0; i < raw.length; i++) whole[i] = raw.charCodeAt(i);
-    const link = document.createElement("a"), address = URL.createObjectURL(new Blob([whole], {type: "application/octet-stream"}));
-    link.href = address;
-    link.download = name;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(address), 10_000);
+    const href = URL.createObjectURL(new Blob([whole], {type: "application/octet-stream"}));
+    make("a", {href, download: name}).click();
+    setTimeout(() => URL.revokeObjectURL(href), 10_000);
     this.words.textContent = [`${name}: ${what}, ${(bytes / 1000).toFixed(0)} kB, of the hull as it is now.`, ...notes].join("\n");
   }
 }
@@ -53,11 +45,8 @@ export class Beside {
     this.page = page;
     this.words = paragraph("Drop a file with a hull on the page, or a picture on a drawing: it is shown beside, your hull stays as it is.");
     this.words.setAttribute("role", "status");
-    this.form = document.createElement("div");
-    this.form.className = "form";
-    const file = document.createElement("input");
-    file.type = "file";
-    file.setAttribute("aria-label", "a file to be shown beside");
+    this.form = form();
+    const file = make("input", {type: "file", ariaLabel: "a file to be shown beside"});
     file.onchange = () => {
       if (file.files?.[0]) this.take(file.files[0], page.activeView());
       file.value = "";
@@ -136,7 +125,7 @@ export class Beside {
     if (!placing) return;
     const names = [placing.view.a, placing.view.b].map((axis) => AXIS_NAMES[axis]);
     placing.given = n ? ["first", "second"].slice(0, n).flatMap((which, i) => names.map((name, j) => {
-      const field = placing.given[2 * i + j] ?? document.createElement("input");
+      const field = placing.given[2 * i + j] ?? make("input");
       field.inputMode = "decimal";
       field.placeholder = field.ariaLabel = `${name} of the ${which} place, m`;
       return field;

@@ -1,10 +1,7 @@
 // Pointers on a view: hover, choose, drag a point, pan, zoom, turn the wire.
 
+import {make} from "./elements.js";
 import {curveThrough, nearestCurve, nearestPoint} from "./view.js";
-
-/** @typedef {import("./view.js").View} View */
-/** @typedef {import("./store.js").Store} Store */
-/** @typedef {import("./hand.js").Hand} Hand */
 
 const REACH = {mouse: 12, pen: 12, touch: 22};
 const STILL = 3; // px: a press that moves less chooses and does not edit
@@ -41,7 +38,7 @@ export class Pointers {
     this.onInsert = null;
     /** May take a click to place a picture. @type {((x: number, y: number) => boolean) | null} */
     this.onPlace = null;
-    /** Takes places while a line is re-shaped. @type {import("./propose.js").Shaper | null} */
+    /** Takes places while a line is re-shaped. @type {Shaper | null} */
     this.shaper = null;
   }
 
@@ -218,15 +215,8 @@ export class Pointers {
     const point = row === null ? undefined : net?.points.get(row);
     tip.hidden = !net || (!point && curve === null);
     if (tip.hidden || !net) return;
-    tip.replaceChildren();
-    const name = document.createElement("b");
-    name.textContent = point ? point.label || point.name : curve === null ? "" : net.curveName(curve);
-    tip.append(name);
-    if (point) for (const words of [net.roleWords(point), net.wayWords(point)]) {
-      const line = document.createElement("span");
-      line.textContent = words;
-      tip.append(line);
-    }
+    const name = make("b", {}, point ? point.label || point.name : curve === null ? "" : net.curveName(curve));
+    tip.replaceChildren(name, ...point ? [net.roleWords(point), net.wayWords(point)].map((words) => make("span", {}, words)) : []);
     const right = x > view.width - 250;
     tip.style.left = right ? "auto" : `${x + 16}px`;
     tip.style.right = right ? `${view.width - x + 16}px` : "auto";

@@ -1,9 +1,6 @@
 // One gesture: a point is taken hold of, asked to be elsewhere, and let go. One `to` is in flight at a time.
 // Until the true answer comes, what follows is foreseen in proportion, while the error is less than half a pixel.
 
-/** @typedef {import("./store.js").Store} Store */
-/** @typedef {import("./store.js").Held} Held */
-/** @typedef {import("./net.js").Frame} Frame */
 /** @typedef {Record<string, number>} Wish */
 
 const SLOW = 250; // ms without an answer: the picture says that it is behind
@@ -245,8 +242,6 @@ export class Hand {
     }
   }
 }
-
-/** @typedef {import("./net.js").Curve} Curve */
 
 const LEAST = 5e-4; // m: less tells too little of the way
 const TURN = 0.01; // m: so far it may reach beyond nil

@@ -1,7 +1,5 @@
 // Cubic segments: places, tangents, movement; teeth of combs, inflections. It knows no hull and no view.
 
-/** @typedef {import("./net.js").Curve} Curve */
-
 /** Chord of the segment after knot i. @param {Curve} c @param {number} i */
 export function chord(c, i) {
   const p = 3 * i, {xyz} = c;
@@ -37,15 +35,45 @@ export function evaluate(c, i, u, out) {
   }
 }
 
+const TRIED = 4, STEPS = 6;
+
+/** From the nearest place of a curve to this one. @param {Curve} c @param {ArrayLike<number>} place @returns {[number, number, number]} */
+function off(c, place) {
+  const at = new Float64Array(9), way = () => [place[0] - at[0], place[1] - at[1], place[2] - at[2]];
+  let segment = 0, u = 0, least = Infinity;
+  for (let i = 0; i + 1 < c.n; i++) for (let k = 0; k < TRIED; k++) {
+    evaluate(c, i, (k + 0.5) / TRIED, at);
+    const far = Math.hypot(...way());
+    if (far < least) [segment, u, least] = [i, (k + 0.5) / TRIED, far];
+  }
+  for (let step = 0, turned = false; step < STEPS; step++) {
+    evaluate(c, segment, u, at);
+    const w = way(), slope = w[0] * at[3] + w[1] * at[4] + w[2] * at[5], speed = at[3] ** 2 + at[4] ** 2 + at[5] ** 2;
+    const bend = speed - w[0] * at[6] - w[1] * at[7] - w[2] * at[8], next = u + slope / (bend > 0 ? bend : speed || 1), on = next < 0 ? segment - 1 : segment + 1;
+    u = Math.min(Math.max(next, 0), 1);
+    if (u === next || turned || on < 0 || on > c.n - 2) continue;
+    turned = true; // the nearest place lies in the segment beside
+    [segment, u] = [on, 1 - u];
+  }
+  evaluate(c, segment, u, at);
+  const [x, y, z] = way();
+  return [x, y, z];
+}
+
 /**
  * How far each knot of a curve has left its published shape, normal to that: nine numbers a knot
- * are too many, so (dx, dy, dz) of the normal part; null where the knots are others.
+ * are too many, so (dx, dy, dz) of the normal part; null where there was none. Knots that are others
+ * are compared with the nearest places of the published shape.
  * @param {Curve | undefined} old @param {Curve} now @returns {Float64Array | null}
  */
 export function normalMovement(old, now) {
-  if (!old || old.n !== now.n) return null;
+  if (!old) return null;
   const found = new Float64Array(3 * now.n);
   for (let p = 0; p < 3 * now.n; p += 3) {
+    if (old.n !== now.n) {
+      found.set(off(old, now.xyz.subarray(p, p + 3)), p);
+      continue;
+    }
     const from = p + 3 < 3 * now.n ? old.leave : old.arrive;
     const tx = from[p], ty = from[p + 1], tz = from[p + 2], size = tx * tx + ty * ty + tz * tz || 1;
     const dx = now.xyz[p] - old.xyz[p], dy = now.xyz[p + 1] - old.xyz[p + 1], dz = now.xyz[p + 2] - old.xyz[p + 2];
@@ -59,15 +87,19 @@ export function normalMovement(old, now) {
 
 /**
  * How far the middle of each segment has left its published shape, m: a new knuckle moves no knot.
- * Null where the knots are others.
+ * Null where there was none.
  * @param {Curve | undefined} old @param {Curve} now @returns {Float64Array | null}
  */
 export function middleMovement(old, now) {
-  if (!old || old.n !== now.n) return null;
+  if (!old) return null;
   const found = new Float64Array(Math.max(now.n - 1, 0)), then = new Float64Array(9), at = new Float64Array(9);
   for (let i = 0; i + 1 < now.n; i++) {
-    evaluate(old, i, 0.5, then);
     evaluate(now, i, 0.5, at);
+    if (old.n !== now.n) {
+      found[i] = Math.hypot(...off(old, at));
+      continue;
+    }
+    evaluate(old, i, 0.5, then);
     const [dx, dy, dz] = [0, 1, 2].map((j) => at[j] - then[j]), size = Math.hypot(then[3], then[4], then[5]) || 1;
     found[i] = Math.sqrt(Math.max(dx * dx + dy * dy + dz * dz - ((dx * then[3] + dy * then[4] + dz * then[5]) / size) ** 2, 0));
   }

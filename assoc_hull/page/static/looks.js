@@ -3,9 +3,6 @@
 
 import {signed} from "./units.js";
 
-/** @typedef {import("./page.js").Page} Page */
-/** @typedef {import("./store.js").Store} Store */
-
 /** @param {Page} page */
 export function keepLooks(page) {
   const {show, tools: {radius, ...tools}, gain, squeeze, theme} = page.store;
@@ -51,74 +48,12 @@ const SHARE = 0.254, LEAST = 104; // of the height at most, px at least
 export function layRows(page) {
   const {store, views} = page, box = views.profile.element.parentElement;
   if (!box || !store.net) return;
-  const {clientWidth: wide, clientHeight: high} = box, key = `${wide}/${high}/${store.squeeze}/${store.net.particulars.name}`;
+  const {clientWidth: wide, clientHeight: high} = box, key = `${wide}/${high}/${store.squeeze}/${store.tab}/${store.net.particulars.name}`;
   if (box.dataset.laid === key) return;
   box.dataset.laid = key;
-  for (const view of [views.profile, views.half]) {
-    const most = Math.max(SHARE * high, LEAST), want = store.squeeze === 1 ? view.heightFor(wide) : most;
-    box.style.setProperty(`--${view.kind}`, `${Math.round(Math.min(Math.max(want, LEAST), most))}px`);
-  }
-}
-
-const WIDE = 340, REASONS = 3;
-
-/** @param {Page} page */
-export function placeBubble(page) {
-  const {store} = page, {refusal} = store, view = page.activeView();
-  let bubble = /** @type {HTMLElement | null} */ (page.root.querySelector(".bubble"));
-  if (!refusal) return bubble?.remove();
-  if (!bubble) {
-    bubble = document.createElement("div");
-    bubble.className = "bubble";
-  }
-  if (bubble.parentElement !== view.element) view.element.append(bubble);
-  const words = shortened(refusal.text);
-  if (bubble.textContent !== words) bubble.textContent = words;
-  const [x, y] = refusal.place && view.kind !== "wire" ? view.atPlace(refusal.place) : [view.width / 2, 40];
-  const wide = Math.min(WIDE, view.width - 16);
-  bubble.style.maxWidth = `${wide}px`;
-  const right = x < view.width / 2, below = y < view.height / 2;
-  bubble.style.left = right ? `${Math.min(Math.max(x + 18, 8), Math.max(view.width - wide - 8, 8))}px` : "auto";
-  bubble.style.right = right ? "auto" : `${Math.min(Math.max(view.width - x + 18, 8), Math.max(view.width - wide - 8, 8))}px`;
-  bubble.style.top = below ? `${Math.min(Math.max(y + 18, 28), view.height - 60)}px` : "auto";
-  bubble.style.bottom = below ? "auto" : `${Math.min(Math.max(view.height - y + 18, 8), view.height - 60)}px`;
-}
-
-/** A pull that goes much too far folds every line: the first reasons tell enough. @param {string} text */
-function shortened(text) {
-  const reasons = text.split("\n"), more = reasons.length - REASONS;
-  return more > 0 ? [...reasons.slice(0, REASONS), `and ${more} more ${more === 1 ? "reason" : "reasons"}`].join("\n") : text;
-}
-
-const PAUSE = 1000; // ms
-
-export class Speaker {
-  /** @param {HTMLElement} root */
-  constructor(root) {
-    const [polite, urgent] = ["polite", "assertive"].map((how) => {
-      const region = document.createElement("div");
-      region.className = "spoken";
-      region.setAttribute("aria-live", how);
-      root.append(region);
-      return region;
-    });
-    this.polite = polite;
-    this.urgent = urgent;
-    this.last = 0;
-    this.refused = "";
-  }
-
-  /** @param {string} words */
-  say(words) { this.polite.textContent = words; }
-
-  /** @param {Store} store */
-  listen(store) {
-    const refused = store.refusal?.text ?? store.problem ?? "";
-    if (refused !== this.refused) this.urgent.textContent = this.refused = refused;
-    const {held, overlay, net} = store, now = performance.now();
-    if (!held || !overlay || held.amount === null || now - this.last < PAUSE) return;
-    this.last = now;
-    const name = net?.points.get(held.row)?.name ?? "";
-    this.say(`${name}, ${held.how} ${(1e3 * held.amount).toFixed(1)} millimetres, ${overlay.frame.curves.size} curves follow, volume about ${signed(overlay.frame.volume, 1, "cubic metres")}`);
-  }
+  box.dataset.squeeze = String(store.squeeze); // titles stand in the middle, unless the drawing is all there
+  const want = (/** @type {View} */ view) => view.heightFor(wide, view.kind === "body" ? 1 : store.squeeze);
+  // Where one view is seen at a time it is as high as it fills; the wire is turned, and has room for that.
+  box.style.setProperty("--alone", `${Math.round(store.tab === "wire" ? 0.75 * wide : want(views[store.tab]))}px`);
+  for (const view of [views.profile, views.half]) box.style.setProperty(`--${view.kind}`, `${Math.round(Math.min(Math.max(want(view), LEAST), Math.max(SHARE * high, LEAST)))}px`);
 }

@@ -1,9 +1,12 @@
 // The page: its parts, what the server says, what actions do.
 
+import {make} from "./elements.js";
 import {ACTIONS, Keys, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
-import {CROSSING, GHOST, LIVE, NET, Net, PUBLISHED, THEIRS, VERSION, parseFrame} from "./net.js";
-import {Speaker, keepLooks, layRows, placeBubble, readInk, restoreLooks, themeOf} from "./looks.js";
+import {CROSSING, Net} from "./net.js";
+import {GHOST, LIVE, NET, PUBLISHED, THEIRS, VERSION, parseFrame} from "./wire.js";
+import {Speaker, placeBubble, writeFoot} from "./notices.js";
+import {keepLooks, layRows, readInk, restoreLooks, themeOf} from "./looks.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
 import {Shaper} from "./propose.js";
@@ -12,14 +15,12 @@ import {View} from "./view.js";
 import {count} from "./units.js";
 import {farthestDrawn, paintHull, paintOverlay} from "./paint.js";
 import {makeBar, openPalette} from "./bar.js";
-import {choose, find, goTo, stepCurve, stepPoint} from "./lists.js";
+import {choose, find, goTo, stepCurve, stepPoint} from "./ways.js";
 
-/** @typedef {import("./view.js").Kind} Kind */
 /** @typedef {{open: () => void, text: (text: string) => void, bytes: (bytes: ArrayBuffer) => void, lost: () => void, over: (reason: string) => void}} Hands */
 /** @typedef {{send: (message: object) => void}} Link */
 /** @typedef {{token: string, author: string, connect: (hands: Hands) => Link, keep: (name: string, value: string) => void, kept: (name: string) => string | null, within?: AbortSignal, upload?: (file: File) => Promise<any>}} Options */
 
-const READ = 6000; // ms
 const KINDS = /** @type {Kind[]} */ (["body", "profile", "half", "wire"]);
 
 /** @param {HTMLElement} root @param {Options} options */
@@ -37,16 +38,12 @@ export class Page {
     root.dataset.tab = this.store.tab;
     this.speaker = new Speaker(root);
     this.bar = makeBar(this);
-    const views = document.createElement("main"), aside = document.createElement("aside"), foot = document.createElement("footer");
-    views.className = "views";
-    aside.setAttribute("aria-label", "Point, curve, edit");
-    this.banner = document.createElement("div");
-    this.banner.className = "banner";
+    const views = make("main", {className: "views"}), aside = make("aside", {ariaLabel: "Point, curve, edit"});
+    this.banner = make("div", {className: "banner"});
     this.banner.setAttribute("role", "status");
-    this.status = document.createElement("span");
-    this.figures = document.createElement("span");
-    foot.append(this.status, this.figures);
-    root.append(this.bar.element, this.banner, views, aside, foot);
+    this.status = make("span");
+    this.figures = make("span");
+    root.append(this.bar.element, this.banner, views, aside, make("footer", {}, this.status, this.figures));
     const length = {o: 0, s: 1};
     this.views = Object.fromEntries(KINDS.map((kind) => [kind, new View(kind, this.store, kind === "profile" || kind === "half" ? length : {o: 0, s: 1}, views)]));
     this.views.profile.partner = this.views.half;
@@ -106,6 +103,7 @@ export class Page {
   /** @param {any} message */
   #told(message) {
     const {store, hand} = this;
+    if (message.id) for (const each of this.panel.askers) each.arrived(message.id);
     if (message.id === this.applying) this.applying = 0; // made, or not
     if (message.t === "session") {
       store.file = message.file;
@@ -212,7 +210,7 @@ export class Page {
 
   // ---- drawing: at most one frame waits
 
-  /** @param {import("./store.js").Stale} what */
+  /** @param {Stale} what */
   #stale(what) {
     if (what === "panel") this.panelStale = true;
     else for (const view of Object.values(this.views)) {
@@ -241,7 +239,7 @@ export class Page {
       this.panelStale = false;
       this.panel.render();
       this.bar.render();
-      this.#foot();
+      writeFoot(this);
       this.speaker.listen(store);
     }
     this.stats.frames++;
@@ -254,24 +252,6 @@ export class Page {
     if (store.net) dataset.ready = "yes";
   }
 
-  #foot() {
-    const {store} = this, {held, overlay} = store;
-    const gone = store.connection === "lost" || store.connection === "over";
-    this.root.classList.toggle("gone", gone);
-    this.banner.hidden = !gone && !store.problem;
-    this.banner.textContent = gone ? store.reason : store.problem ?? "";
-    const hints = store.shaping ? "Re-shape: click where the line is to pass, drag a place, Backspace removes the last, Enter shows the answer, Esc gives up"
-      : held?.how === "pull" ? "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
-      : held ? "Move: Alt is ten times finer, Shift locks an axis, Esc cancels"
-      : store.selection.row !== null ? "Drag, or use the arrows: 1 mm, Shift 10 mm, Alt 0.1 mm" : "Click a point or a line; drag the ground to pan, the wheel zooms";
-    // What was said is read before it gives way to a hint.
-    const said = !held && performance.now() - this.said.at < READ ? this.said.words : "";
-    this.status.textContent = store.connection === "connecting" ? "Connecting" : said || hints;
-    const view = this.activeView(), pixel = 1e3 / view.axis.s * (this.store.tools.fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
-    const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
-    this.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.net?.points.get(store.theirs.row)?.name ?? "a point"}` : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
-  }
-
   // ---- what the actions do
 
   /** @param {string} words */
@@ -281,7 +261,7 @@ export class Page {
     this.status.textContent = words;
   }
 
-  /** A fair answer and a lead are looked at before they are made. @param {import("./store.js").Held} held @param {Record<string, number>} wish */
+  /** A fair answer and a lead are looked at before they are made. @param {Held} held @param {Record<string, number>} wish */
   #proposed(held, wish) {
     const {tools, net} = this.store, point = net?.points.get(held.row), far = (1e3 * (held.amount ?? 0)).toFixed(1);
     if (!point) return false;
@@ -342,9 +322,13 @@ export class Page {
     return this.number;
   }
 
+  /** Tells the server that an answer is not wanted any more. @param {number} id */
+  giveUp(id) { this.link.send({t: "stop", id}); }
+
   /** Removes the ghost; one that is still to come is not shown. */
   dropGhost() {
-    const {store, shower} = this;
+    const {store, shower, wanted} = this;
+    if (wanted && !store.ghost) this.giveUp(wanted);
     this.wanted = 0;
     this.shower = store.ghost = null;
     shower?.dropped();

@@ -1,12 +1,10 @@
 // What is drawn, in order: the hull below, what lives above.
 
 import {combScale, evaluate, inflections, middleMovement, normalMovement, teeth} from "./hermite.js";
-import {diamond, drawHandles, drawLabels} from "./marks.js";
+import {diamond, drawHandles} from "./marks.js";
+import {drawLabels} from "./labels.js";
 import {drawBeside, drawPicture} from "./files.js";
 
-/** @typedef {import("./view.js").View} View */
-/** @typedef {import("./net.js").Curve} Curve */
-/** @typedef {import("./net.js").Frame} Frame */
 /** @typedef {Record<string, string>} Ink */
 
 const FLATS = 1;
@@ -90,17 +88,14 @@ function drawGrid(view, g, ink) {
   g.setLineDash([]);
 }
 
-/** Movement of the curves of a frame, found once. @type {WeakMap<Frame, Map<number, Float64Array | null>>} */
-const movements = new WeakMap();
+/** Of each curve of a frame how its knots and the middles between them have moved, found once. @type {[WeakMap<Frame, Map<number, Float64Array | null>>, WeakMap<Frame, Map<number, Float64Array | null>>]} */
+const movements = [new WeakMap(), new WeakMap()];
 
-/** @param {Frame} frame @param {Map<number, Curve>} published */
-export function movementOf(frame, published) {
-  let found = movements.get(frame);
-  if (!found) {
-    found = new Map();
-    for (const [id, curve] of frame.curves) found.set(id, normalMovement(published.get(id), curve));
-    movements.set(frame, found);
-  }
+/** @param {Frame} frame @param {Map<number, Curve>} published @param {boolean} [between] of the middles */
+function movementOf(frame, published, between = false) {
+  const known = movements[Number(between)], find = between ? middleMovement : normalMovement;
+  const found = known.get(frame) ?? new Map([...frame.curves].map(([id, curve]) => [id, find(published.get(id), curve)]));
+  known.set(frame, found);
   return found;
 }
 
@@ -116,7 +111,7 @@ export function farthest(frame, published, counts = () => true) {
 /** The farthest that curves of a frame are drawn off their published shape, m, also between knots. @param {Frame} frame @param {Map<number, Curve>} published */
 export function farthestDrawn(frame, published) {
   let most = farthest(frame, published);
-  for (const [id, curve] of frame.curves) for (const far of middleMovement(published.get(id), curve) ?? []) most = Math.max(most, far);
+  for (const moved of movementOf(frame, published, true).values()) for (const far of moved ?? []) most = Math.max(most, far);
   return most;
 }
 
@@ -164,7 +159,7 @@ function stroke(view, g, id, colour, width) {
 
 /** A variant, or what follows the hand of another, dashed. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame */
 function drawGhost(view, g, ink, frame) {
-  const {net, curves, show, overlay} = view.store, moved = movementOf(frame, curves);
+  const {net, curves, show, overlay} = view.store, moved = movementOf(frame, curves), between = movementOf(frame, curves, true);
   const seen = (/** @type {number} */ id) => {
     const line = net?.lineOf(id);
     return line !== undefined && view.shows(line);
@@ -173,7 +168,7 @@ function drawGhost(view, g, ink, frame) {
   for (const [id, c] of frame.curves) {
     const line = net?.lineOf(id), by = moved.get(id);
     if (!line || !view.shows(line)) continue;
-    const far = (/** @type {number} */ i) => by ? Math.hypot(by[3 * i], by[3 * i + 1], by[3 * i + 2]) : Infinity, middle = middleMovement(curves.get(id), c);
+    const far = (/** @type {number} */ i) => by ? Math.hypot(by[3 * i], by[3 * i + 1], by[3 * i + 2]) : Infinity, middle = between.get(id);
     // What lies where it is published would only hide it.
     view.trace(g, c, line, by ? (i) => Math.max(far(i), far(i + 1), middle?.[i] ?? 0) >= LEAST_MOVED : undefined);
   }
@@ -228,7 +223,7 @@ function drawSpikes(view, g, ink, frame, moved, top) {
   view.magnified = magnification(view.magnified, top * view.sy);
   let any = false;
   g.beginPath();
-  for (const id of frame.curves.keys()) {
+  for (const [id, now] of frame.curves) {
     const line = net?.lineOf(id), by = moved.get(id), old = curves.get(id);
     if (!line || !by || !old || !view.shows(line)) continue;
     for (const given of view.sides(line) ?? [0]) {
@@ -236,8 +231,9 @@ function drawSpikes(view, g, ink, frame, moved, top) {
       for (let p = 0; p < by.length; p += 3) {
         const way = by.subarray(p, p + 3);
         if (Math.hypot(way[0], way[1], way[2]) < LEAST_MOVED) continue;
-        const side = given || view.side(old.xyz[p]);
-        const [x, y] = view.at(old.xyz[p], old.xyz[p + 1], old.xyz[p + 2], side), [dx, dy] = view.seen(way, side);
+        // From where it was; of another knot, from the nearest place there.
+        const [px, py, pz] = old.n === now.n ? old.xyz.subarray(p, p + 3) : [0, 1, 2].map((j) => now.xyz[p + j] - way[j]), side = given || view.side(px);
+        const [x, y] = view.at(px, py, pz, side), [dx, dy] = view.seen(way, side);
         if (Math.hypot(x - last[0], y - last[1]) < 7) continue; // a hedge shows nothing
         last = [x, y];
         any = true;

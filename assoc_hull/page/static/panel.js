@@ -1,18 +1,19 @@
 // The panel at the right: the point, its curve, what the edit does, who signs.
 
+import {button, form, link, make, paragraph} from "./elements.js";
 import {ACTIONS, keyWords} from "./actions.js";
-import {Numbers, Past, WhyPanel} from "./answers.js";
-import {button, link, paragraph} from "./asker.js";
+import {Numbers} from "./hydrostatics.js";
+import {Past, WhyPanel} from "./history.js";
 import {arcLength, inflections} from "./hermite.js";
 import {farthest} from "./paint.js";
 import {Beside, Files} from "./files.js";
-import {Fairing, Vary} from "./ghosts.js";
-import {LineChoice, PointActs, PointTable, Problems, roleChoice} from "./lists.js";
+import {Fairing} from "./fair.js";
+import {Vary} from "./vary.js";
+import {LineChoice, PointTable, Problems} from "./lists.js";
+import {PointActs, roleChoice} from "./point_acts.js";
 import {Proposal, farWords} from "./propose.js";
 import {CROSSING} from "./net.js";
 import {count, millimetres, signed, typedNumber} from "./units.js";
-
-/** @typedef {import("./page.js").Page} Page */
 
 const AXES = ["x", "y", "z"];
 const WAYS = ["forward of AP", "from the centre plane", "above the base line"];
@@ -24,16 +25,12 @@ export class Panel {
   constructor(page, element) {
     this.page = page;
     this.parts = Object.fromEntries(["Proposal", "Point", "Curve", "Edit", "Pull", "Why", "History", "Hydrostatics", "Fair", "Vary", "Points", "Problems", "Export", "Beside", "Signed as"].map((title) => {
-      const box = document.createElement("details"), head = document.createElement("summary"), heading = document.createElement("h2"), body = document.createElement("div");
-      box.open = OPEN.includes(title);
+      const body = make("div"), box = make("details", {open: OPEN.includes(title)}, make("summary", {}, make("h2", {textContent: title})), body);
       box.ontoggle = () => {
         const asker = [this.why, this.numbers].find((each) => each.box === body);
         if (asker) asker.led = box.open;
         page.store.changed("panel");
       };
-      heading.textContent = title;
-      head.append(heading);
-      box.append(head, body);
       element.append(box);
       return [title, body];
     }));
@@ -41,8 +38,8 @@ export class Panel {
     this.fields = [];
     this.shownRow = /** @type {number | null | undefined} */ (undefined);
     this.shownState = -1;
-    this.pointBox = document.createElement("div");
-    this.curveBox = document.createElement("div");
+    this.pointBox = make("div");
+    this.curveBox = make("div");
     this.parts.Point.append(this.pointBox);
     this.acts = new PointActs(page, this.parts.Point);
     this.lines = new LineChoice(page, this.parts.Curve);
@@ -63,21 +60,16 @@ export class Panel {
     this.radii = [0, 1].map((i) => this.#radius(i));
     const made = this.#switches(["fair-pull", "pinned", "insert", "reshape", "fair-shape"]), ofPoint = this.#switches(["knuckle", "smooth", "tangent", "pin", "delete"]);
     this.switches = [...made, ...ofPoint];
-    this.pointForm = document.createElement("div");
-    this.pointForm.className = "form";
-    this.pointForm.append(...ofPoint.map(({found}) => found));
+    this.pointForm = form(...ofPoint.map(({found}) => found));
     this.acts.add(this.pointForm);
     this.#table(this.parts.Pull, [["along the length, m", this.radii[0]], ["around the girth, m", this.radii[1]]]);
-    const form = document.createElement("div");
-    form.className = "form";
-    form.append(...made.map(({found}) => found));
-    this.parts.Pull.append(form);
+    this.parts.Pull.append(form(...made.map(({found}) => found)));
   }
 
   /** Buttons of actions. @param {string[]} ids */
   #switches(ids) {
     return ids.map((id) => {
-      const action = /** @type {import("./actions.js").Action} */ (ACTIONS.find((each) => each.id === id)), found = button(action.label?.(this.page) ?? "", () => action.run(this.page));
+      const action = /** @type {Action} */ (ACTIONS.find((each) => each.id === id)), found = button(action.label?.(this.page) ?? "", () => action.run(this.page));
       found.dataset.action = id;
       found.title = `${action.words} (${action.keys.map(keyWords).join(", ")})`;
       return {action, found};
@@ -86,7 +78,7 @@ export class Panel {
 
   /** @param {number} i */
   #radius(i) {
-    const field = document.createElement("input"), {store} = this.page;
+    const field = make("input"), {store} = this.page;
     field.inputMode = "decimal";
     field.setAttribute("aria-label", i ? "radius of a pull around the girth, m" : "radius of a pull along the length, m");
     field.onchange = () => {
@@ -129,14 +121,7 @@ export class Panel {
 
   /** @param {HTMLElement} box @param {[string, string | Node][]} rows */
   #table(box, rows) {
-    const list = document.createElement("dl");
-    for (const [name, value] of rows) {
-      const term = document.createElement("dt"), what = document.createElement("dd");
-      term.textContent = name;
-      what.append(value);
-      list.append(term, what);
-    }
-    box.replaceChildren(list);
+    box.replaceChildren(make("dl", {}, ...rows.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)])));
   }
 
   /** @param {HTMLElement} box @param {string} words */
@@ -158,9 +143,7 @@ export class Panel {
       if (moved) moved.textContent = this.#movedWords(row);
       return;
     }
-    const role = store.net.roleWords(point), moved = document.createElement("span");
-    moved.className = "moved";
-    moved.textContent = this.#movedWords(row);
+    const role = store.net.roleWords(point), moved = make("span", {className: "moved", textContent: this.#movedWords(row)});
     // What is typed stays when somebody else has edited the hull meanwhile.
     const old = this.shownRow === row ? this.fields : [], at = old.findIndex((field) => field === document.activeElement);
     this.fields = AXES.map((name, i) => this.#field(point, name, i, place[i]));
@@ -191,10 +174,9 @@ export class Panel {
     return millimetres(Math.hypot(now[0] - then[0], now[1] - then[1], now[2] - then[2]));
   }
 
-  /** @param {import("./net.js").Point} point @param {string} name @param {number} axis @param {number} value */
+  /** @param {Point} point @param {string} name @param {number} axis @param {number} value */
   #field(point, name, axis, value) {
-    const field = document.createElement("input");
-    field.inputMode = "decimal";
+    const field = make("input", {inputMode: "decimal"});
     field.value = value.toFixed(4);
     field.setAttribute("aria-label", `${name}, m, ${WAYS[axis]}`);
     field.title = WAYS[axis];
@@ -214,7 +196,7 @@ export class Panel {
     return field;
   }
 
-  /** @param {import("./net.js").Point} point */
+  /** @param {Point} point */
   #enter(point) {
     const values = Object.fromEntries([...point.free].map((name) => [name, typedNumber(this.fields[AXES.indexOf(name)])]));
     const {tools} = this.page.store;
@@ -231,9 +213,7 @@ export class Panel {
     const line = id === null ? undefined : net?.lineOf(id), was = id === null ? undefined : store.curves.get(id), now = id === null ? undefined : store.curveNow(id);
     if (id === null || !net || !line || !was || !now) return this.#words(box, "Click a line, or choose it here.");
     const [a, b] = PLANES[line.family] ?? [0, 2], before = inflections(was, a, b).length, after = inflections(now, a, b).length;
-    const count = document.createElement("span");
-    count.textContent = before === after ? `${after}` : `${after}, was ${before}`;
-    count.className = after > before ? "hot" : "";
+    const count = make("span", {textContent: before === after ? `${after}` : `${after}, was ${before}`, className: after > before ? "hot" : ""});
     const by = now === was ? null : farthest(/** @type {any} */ ({curves: new Map([[id, now]])}), store.curves);
     this.#table(box, [
       ["name", net.curveName(id)],
@@ -274,8 +254,7 @@ export class Panel {
   }
 
   #signature() {
-    const {page} = this, field = document.createElement("input");
-    field.setAttribute("aria-label", "name that your edits are signed with");
+    const {page} = this, field = make("input", {ariaLabel: "name that your edits are signed with"});
     field.value = page.options.author;
     field.maxLength = 80;
     field.onchange = () => {

@@ -1,10 +1,9 @@
-// What would be made, shown as a ghost before it is; and a line re-shaped through places that are clicked.
+// What would be made, shown as a ghost before it is; a line is re-shaped so through places that are clicked.
 
-import {Asker, button} from "./asker.js";
+import {Asker} from "./asker.js";
+import {button, form} from "./elements.js";
 import {farthestDrawn} from "./paint.js";
 import {millimetres, signed} from "./units.js";
-
-/** @typedef {import("./page.js").Page} Page */
 
 /** @typedef {{normal: number | null, moved: number, volume_change: number | null, lcb_change: number | null, notes?: string[], refused: string[]}} Cost */
 
@@ -14,7 +13,7 @@ export function farWords(normal, drawn) {
   return `${millimetres(normal ?? 0)} off the hull${drawn > (normal ?? 0) + 1e-4 ? `, ${millimetres(drawn)} between points` : ""}`;
 }
 
-/** What the ghost that is shown would do. @param {Cost} cost @param {import("./store.js").Store} store */
+/** What the ghost that is shown would do. @param {Cost} cost @param {Store} store */
 export function costWords({normal, volume_change: volume, lcb_change: lcb}, {ghost, curves}) {
   const far = farWords(normal, ghost ? farthestDrawn(ghost, curves) : 0);
   return [
@@ -24,99 +23,123 @@ export function costWords({normal, volume_change: volume, lcb_change: lcb}, {gho
   ].filter(Boolean).join(", ");
 }
 
-export class Proposal extends Asker {
-  /** @param {import("./page.js").Page} page @param {HTMLElement} box */
+/** What is shown as a ghost before it is made: dropped with the ghost, and with the state that it was asked of. */
+export class Offer extends Asker {
+  /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
-    /** @type {{name: string, ops: object[], state: number, draft: boolean} | null} */
+    /** @type {any} */
     this.what = null;
     this.ready = false;
+    /** What is said once it is made. */
+    this.made = "";
+  }
+
+  /** @param {{t: string, [name: string]: unknown}} message @param {string} words @param {object} what */
+  offer(message, words, what) {
+    this.askGhost(message, words);
+    this.what = {...what, state: this.page.store.state};
+    this.ready = false;
+    this.page.store.changed("panel");
+  }
+
+  /** Tells what it would do; it can be made unless it is refused. @param {Cost} cost @param {string} words */
+  tell({refused}, words) {
+    this.ready = !refused.length;
+    this.words.textContent = this.ready ? words : `${refused.join("\n")}\nNothing is changed.`;
+    this.page.say(this.words.textContent);
+    this.page.store.changed("panel");
+  }
+
+  /** @param {string} name @param {object[]} ops */
+  make(name, ops) {
+    this.asked = this.page.apply(name, ops);
+    this.ready = false;
+  }
+
+  render() {
+    // Somebody has edited the hull: it would be another answer.
+    if (this.what && this.what.state !== this.page.store.state) this.#forget();
+  }
+
+  #forget() {
+    if (!this.what) return;
+    this.what = null;
+    this.ready = false;
+    this.page.store.changed("panel");
+  }
+
+  dropped() {
+    super.dropped();
+    this.#forget();
+  }
+
+  lost() {
+    super.lost();
+    this.#forget();
+  }
+
+  /** @param {{id: number}} message */
+  done(message) {
+    if (!message.id || message.id !== this.asked) return;
+    this.#forget();
+    this.words.textContent = this.made;
+  }
+
+  /** @param {{id: number, text: string}} message */
+  problem(message) {
+    const mine = super.problem(message);
+    if (mine) this.#forget();
+    return mine;
+  }
+}
+
+/** Any edits, as the drawing, the point and the line ask for them. */
+export class Proposal extends Offer {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    super(page, box);
     // Either way the hand is at the drawing again.
     const back = (/** @type {() => unknown} */ act) => () => {
       act();
       page.activeView().upper.focus({preventScroll: true});
     };
-    this.make = button("Apply", back(() => this.apply()));
+    this.go = button("Apply", back(() => this.apply()));
     this.give = button("Give up", back(() => page.dropGhost()));
-    const form = document.createElement("div");
-    form.className = "form";
-    form.append(this.make, this.give);
-    box.append(this.words, form);
+    box.append(this.words, form(this.go, this.give));
   }
 
   /** One that is a draft is not made: it waits for more of what is asked. @param {string} name @param {object[]} ops @param {boolean} [draft] */
   show(name, ops, draft = false) {
     // Asked once more: it was seen, and is wanted.
-    if (this.ready && !draft && this.what && !this.what.draft && this.what.state === this.page.store.state && JSON.stringify(this.what.ops) === JSON.stringify(ops)) return void this.apply();
-    this.askGhost({t: "preview", ops}, `${name}: looking what follows …${/"fair":true/.test(JSON.stringify(ops)) ? " A fair answer takes some seconds; Esc gives up." : ""}`);
-    this.what = {name, ops, state: this.page.store.state, draft};
-    this.ready = false;
-    this.page.store.changed("panel");
+    if (this.ready && !draft && !this.what.draft && this.what.state === this.page.store.state && JSON.stringify(this.what.ops) === JSON.stringify(ops)) return void this.apply();
+    this.offer({t: "preview", ops}, `${name}: looking what follows …${/"fair":true/.test(JSON.stringify(ops)) ? " A fair answer takes some seconds; Esc gives up." : ""}`, {name, ops, draft});
   }
 
   render() {
-    if (this.what && this.what.state !== this.page.store.state) {
-      this.what = null; // somebody has edited the hull: it would be another answer
-      this.ready = false;
-    }
+    super.render();
     const box = this.box.closest("details");
     if (box) box.hidden = !this.what && !this.words.textContent;
-    this.make.disabled = !this.ready;
-    this.make.textContent = this.what?.draft ? "Done: show the answer" : "Apply";
+    this.go.disabled = !this.ready;
+    this.go.textContent = this.what?.draft ? "Done: show the answer" : "Apply";
     this.give.disabled = !this.what;
   }
 
-  dropped() {
-    this.what = null;
-    this.ready = false;
-    this.words.textContent = "";
-    this.page.store.changed("panel");
-  }
-
-  lost() {
-    super.lost();
-    this.dropped();
-  }
-
   /** @param {{id: number, value: Cost}} message */
-  answer(message) {
-    if (message.id !== this.asked || !this.what) return;
-    const {refused, notes} = message.value;
-    this.ready = !refused.length;
-    if (this.ready && !this.what.draft) this.make.scrollIntoView({block: "nearest"});
-    this.words.textContent = refused.length ? `${refused.join("\n")}\nNothing is changed.` : [`${this.what.name}: ${costWords(message.value, this.page.store)}.`, this.what.draft ? "Nothing is changed yet: click more places; Enter shows the answer, Esc gives up." : "Nothing is changed yet: Enter applies, Esc gives up.", ...(notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n");
-    this.page.say(this.words.textContent);
-    this.page.store.changed("panel");
+  answer({id, value}) {
+    if (id !== this.asked || !this.what) return;
+    const {name, draft} = this.what;
+    this.tell(value, [`${name}: ${costWords(value, this.page.store)}.`, draft ? "Nothing is changed yet: click more places; Enter shows the answer, Esc gives up." : "Nothing is changed yet: Enter applies, Esc gives up.", ...(value.notes ?? []).slice(0, 3).map((note) => `– ${note}`)].join("\n"));
+    if (this.ready && !draft) this.go.scrollIntoView({block: "nearest"});
   }
 
   /** Makes what is shown; tells whether there was anything. */
   apply() {
     const {what, page} = this;
     if (!what || !this.ready) return false;
-    if (what.draft) {
-      page.shaper.finish();
-      return true;
-    }
-    this.asked = page.apply(what.name, what.ops);
-    this.ready = false;
+    if (what.draft) page.shaper.finish();
+    else this.make(what.name, what.ops);
     return true;
-  }
-
-  /** @param {{id: number}} message */
-  done(message) {
-    if (!message.id || message.id !== this.asked) return;
-    this.what = null;
-    this.words.textContent = "";
-  }
-
-  /** @param {{id: number, text: string}} message */
-  problem(message) {
-    const mine = super.problem(message);
-    if (mine) {
-      this.what = null;
-      this.page.store.changed("panel");
-    }
-    return mine;
   }
 }
 
@@ -144,7 +167,7 @@ export class Shaper {
     page.say("Click where the line is to pass, drag a place to change it, Backspace removes the last. Enter asks for the answer, Esc gives up.");
   }
 
-  /** Takes hold of a place, or makes one; gives its number. @param {import("./view.js").View} view @param {number[] | null} place @param {number} x @param {number} y @returns {number | null} */
+  /** Takes hold of a place, or makes one; gives its number. @param {View} view @param {number[] | null} place @param {number} x @param {number} y @returns {number | null} */
   press(view, place, x, y) {
     const {store} = this.page, shaping = store.shaping;
     if (!shaping) return null;
@@ -162,7 +185,7 @@ export class Shaper {
     return near < 0 ? shaping.places.length - 1 : near;
   }
 
-  /** On a line that crosses, where so near: beside it would be two points in one place. @param {import("./view.js").View} view @param {number[]} place */
+  /** On a line that crosses, where so near: beside it would be two points in one place. @param {View} view @param {number[]} place */
   #snap(view, place) {
     const {store} = this.page, curve = store.shaping?.curve ?? -1, axis = this.#along(curve), reach = SNAP / (axis === view.b ? view.sy : view.axis.s);
     let best = null, least = reach;
@@ -176,7 +199,7 @@ export class Shaper {
   /** The coordinate that grows along a line: heights of sections, lengths of all others. @param {number} curve */
   #along(curve) { return this.page.store.net?.lineOf(curve)?.axis === 0 ? 2 : 0; }
 
-  /** Arrows move the last place by so much (m); without one, the chosen point is the first. @param {import("./view.js").View} view @param {[number, number]} way @param {number} far */
+  /** Arrows move the last place by so much (m); without one, the chosen point is the first. @param {View} view @param {[number, number]} way @param {number} far */
   nudge(view, way, far) {
     const {store} = this.page, {shaping, selection} = store, line = store.net?.lineOf(shaping?.curve ?? -1);
     if (!shaping || !line) return;
@@ -191,7 +214,7 @@ export class Shaper {
     this.timer = setTimeout(() => this.look(), PAUSE);
   }
 
-  /** @param {import("./view.js").View} view @param {number} which @param {number[] | null} place */
+  /** @param {View} view @param {number} which @param {number[] | null} place */
   to(view, which, place) {
     const {store} = this.page;
     if (place) this.#snap(view, place);

@@ -1,8 +1,5 @@
 // The one store: what is published, what is in hand, what is chosen, how it is looked at.
 
-/** @typedef {import("./net.js").Curve} Curve */
-/** @typedef {import("./net.js").Frame} Frame */
-/** @typedef {import("./net.js").Net} Net */
 /** @typedef {"hull" | "overlay" | "panel"} Stale */
 /** @typedef {{frame: Frame, amount: number | null, predicted: boolean}} Overlay */
 /** @typedef {{text: string, row: number | null, place: number[] | null, named: number[]}} Refusal */
@@ -39,7 +36,7 @@ export class Store {
     this.inserting = null;
     /** The line that is being re-shaped, and where it is to pass. @type {{curve: number, places: number[][]} | null} */
     this.shaping = null;
-    /** A hull of a file, shown beside. @type {{lines: import("./net.js").Line[], frame: Frame} | null} */
+    /** A hull of a file, shown beside. @type {{lines: Line[], frame: Frame} | null} */
     this.beside = null;
     /** A place that somebody is led to. @type {number[] | null} */
     this.marked = null;
@@ -49,7 +46,7 @@ export class Store {
     this.theme = "auto";
     /** @type {string | null} */
     this.maximised = null;
-    this.tab = "body";
+    this.tab = /** @type {Kind} */ ("body");
     this.connection = /** @type {"connecting" | "open" | "lost" | "over"} */ ("connecting");
     this.reason = "";
     this.history = {edits: 0, undo: /** @type {string | null} */ (null), redo: /** @type {string | null} */ (null), above: /** @type {string | null} */ (null)};
@@ -76,7 +73,7 @@ export class Store {
   select(row, curve) {
     if (this.selection.row === row && this.selection.curve === curve) return;
     this.selection = {row, curve};
-    this.changed("overlay", "panel");
+    this.changed("hull", "overlay", "panel"); // names give way to points that are drawn
   }
 
   /** @param {number | null} row @param {number | null} curve */

@@ -1,18 +1,17 @@
 // One view: its two canvases, what it shows, where things lie on the screen, what is under the pointer.
 
+import {make} from "./elements.js";
 import {bezier} from "./hermite.js";
 
-/** @typedef {import("./net.js").Curve} Curve */
-/** @typedef {import("./net.js").Line} Line */
-/** @typedef {import("./store.js").Store} Store */
 /** @typedef {"body" | "profile" | "half" | "wire"} Kind */
 /** Lengths of the ship on the screen; profile and half-breadth plan share one. @typedef {{o: number, s: number}} Axis */
+/** A name and the room that it takes: left, top, right, bottom. @typedef {{text: string, box: number[], colour: string, turned: boolean}} Name */
 /** @typedef {{x0: number, x1: number, y1: number, z0: number, z1: number}} Box */
 
 export const TITLES = {body: "Body plan", profile: "Profile", half: "Half-breadth plan", wire: "Wire"};
 const OWN = {body: ["sections", "frames"], profile: ["buttocks"], half: ["waterlines", "diagonals"], wire: []};
 const PLANE = {body: [1, 2], profile: [0, 2], half: [0, 1], wire: [0, 2]};
-const MARGINS = {body: [46, 54, 16, 36], profile: [46, 38, 16, 34], half: [46, 38, 16, 34], wire: [20, 30, 20, 20]};
+const MARGINS = {body: [46, 52, 16, 36], profile: [46, 38, 16, 34], half: [46, 38, 16, 34], wire: [20, 30, 20, 20]};
 const FLAT = 1e-6;
 
 export class View {
@@ -34,24 +33,14 @@ export class View {
     this.set = [0, 0];
     this.fitted = true;
     this.stale = {hull: true, overlay: true};
-    this.element = document.createElement("section");
-    this.element.className = `view view-${kind}`;
-    this.element.setAttribute("aria-label", TITLES[kind]);
-    const head = document.createElement("header"), title = document.createElement("h2");
-    title.textContent = TITLES[kind];
-    this.note = document.createElement("span");
-    this.note.className = "note";
-    head.append(title, this.note);
-    this.head = head;
-    this.lower = document.createElement("canvas");
-    this.upper = document.createElement("canvas");
-    this.upper.tabIndex = 0;
+    this.element = make("section", {className: `view view-${kind}`, ariaLabel: TITLES[kind]});
+    this.note = make("span", {className: "note"});
+    this.head = make("header", {}, make("h2", {}, TITLES[kind]), this.note);
+    this.lower = make("canvas");
+    this.upper = make("canvas", {tabIndex: 0, ariaLabel: `${TITLES[kind]}: drawing`});
     this.upper.setAttribute("role", "application");
-    this.upper.setAttribute("aria-label", `${TITLES[kind]}: drawing`);
-    this.tip = document.createElement("div");
-    this.tip.className = "tip";
-    this.tip.hidden = true;
-    this.element.append(this.lower, this.upper, head, this.tip);
+    this.tip = make("div", {className: "tip", hidden: true});
+    this.element.append(this.lower, this.upper, this.head, this.tip);
     parent.append(this.element);
     /** @type {{id: number, path: Float32Array}[]} */
     this.paths = [];
@@ -60,6 +49,8 @@ export class View {
     this.rowsShown = null;
     /** A picture to trace: its upper left corner and the size of its pixels, m. @type {{image: ImageBitmap, x: number, y: number, across: number, up: number} | null} */
     this.picture = null;
+    /** Names on the drawing; the first is the title. @type {Name[]} */
+    this.written = [];
     this.magnified = 0;
     /** @type {Map<string, number>} */
     this.scales = new Map();
@@ -200,10 +191,10 @@ export class View {
       up: Math.max(this.height - top - bottom, 12) / Math.max(v1 - v0, 1e-6)};
   }
 
-  /** Height at which the whole hull just fills so many pixels of width. @param {number} wide */
-  heightFor(wide) {
+  /** Height at which the whole hull just fills so many pixels of width. @param {number} wide @param {number} squeeze */
+  heightFor(wide, squeeze) {
     const [u0, u1, v0, v1] = this.extent(), [left, top, right, bottom] = MARGINS[this.kind];
-    return (wide - left - right) / Math.max(u1 - u0, 1e-6) * (v1 - v0) + top + bottom;
+    return (wide - left - right) / Math.max(u1 - u0, 1e-6) * (v1 - v0) * squeeze + top + bottom;
   }
 
   /** Brings places into the picture, as large as they fit. @param {ArrayLike<number>} xyz (3n) m */
@@ -316,7 +307,6 @@ export class View {
     return this.rowsShown;
   }
 }
-
 
 const PARTS = 6;
 

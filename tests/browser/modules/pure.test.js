@@ -4,9 +4,10 @@ import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import {test} from "node:test";
 import {ACTIONS, keyName, keyWords} from "./actions.js";
-import {evaluate} from "./hermite.js";
+import {evaluate, middleMovement, normalMovement} from "./hermite.js";
 import {Predictor} from "./hand.js";
-import {NET, alike, parseFrame} from "./net.js";
+import {alike} from "./net.js";
+import {NET, parseFrame} from "./wire.js";
 
 const given = JSON.parse(readFileSync("given.json", "utf8")), raw = readFileSync("net.frame");
 const frame = parseFrame(raw.buffer.slice(raw.byteOffset, raw.byteOffset + raw.byteLength));
@@ -71,4 +72,49 @@ test("each action has words, and each key one effect", () => {
 test("names are compared as people write them", () => {
   for (const [one, other] of [["WL 0.5 x ST 7", "wl 0,50 X st07"], ["BTK 2", "btk2.0"], ["ST 10", "st 010"], ["WL 1 × ST 3", "WL 1 x ST 3"]]) assert.equal(alike(one), alike(other));
   for (const [one, other] of [["ST 1", "ST 10"], ["WL 0.5", "WL 5"], ["WL 0.05", "WL 0.5"], ["ST 100", "ST 1"], ["BTK 0.5 x WL 1 #2", "BTK 0.5 x WL 1"]]) assert.notEqual(alike(one), alike(other));
+});
+
+/** A curve with a knot more in the middle of each segment, which lies where the curve lay, and all of it raised by a. */
+function finer(c, a) {
+  const out = new Float64Array(9), xyz = [], leave = [], arrive = [];
+  const chords = Array.from({length: c.n - 1}, (_, i) => Math.hypot(...[0, 1, 2].map((j) => c.xyz[3 * i + 3 + j] - c.xyz[3 * i + j])));
+  for (let i = 0; i + 1 < c.n; i++) for (const u of [0, 0.5]) {
+    evaluate(c, i, u, out);
+    xyz.push(out[0], out[1], out[2] + a);
+    const rate = [out[3], out[4], out[5]];
+    leave.push(...rate.map((each) => each / chords[i]));
+    arrive.push(...(u || !i ? rate.map((each) => each / chords[i]) : [...c.arrive.subarray(3 * i, 3 * i + 3)]));
+  }
+  xyz.push(...c.xyz.subarray(-3, -1), c.xyz.at(-1) + a);
+  leave.push(...c.leave.subarray(-3));
+  arrive.push(...c.arrive.subarray(-3));
+  // Derivatives are by chord: those of halves are longer or shorter than half the whole.
+  const n = 2 * c.n - 1, half = (i) => Math.hypot(...[0, 1, 2].map((j) => xyz[3 * i + 3 + j] - xyz[3 * i + j]));
+  for (let i = 0; i + 1 < n; i++) {
+    const times = chords[i >> 1] / 2 / half(i);
+    for (let j = 0; j < 3; j++) {
+      leave[3 * i + j] *= times;
+      arrive[3 * i + 3 + j] *= times;
+    }
+  }
+  return {id: c.id, n, xyz: Float64Array.from(xyz), leave: Float32Array.from(leave), arrive: Float32Array.from(arrive)};
+}
+
+test("a curve of other knots has moved as far as it lies from where it lay", () => {
+  for (const c of frame.curves.values()) {
+    const same = finer(c, 0);
+    for (const far of [...normalMovement(c, same), ...middleMovement(c, same)]) assert.ok(Math.abs(far) < 1e-5, `${c.id}: ${far}`);
+    const up = finer(c, 0.01), moved = normalMovement(c, up);
+    for (let p = 0; p < moved.length; p += 3) assert.ok(Math.hypot(moved[p], moved[p + 1], moved[p + 2]) < 0.01 + 1e-5);
+  }
+  const flat = [...frame.curves.values()].find((c) => c.xyz.every((value, i) => i % 3 !== 2 || value === c.xyz[2])), up = finer(flat, 0.01);
+  for (const far of middleMovement(flat, up)) assert.ok(Math.abs(far - 0.01) < 1e-5, String(far));
+});
+
+test("names in a row stand apart, within the row, each as near as can be", async () => {
+  const {spread} = await import("./labels.js");
+  assert.deepEqual(spread([5, 50], [10, 10], 0, 100), [5, 50]);
+  assert.deepEqual(spread([50, 50, 50], [10, 10, 10], 0, 100), [40, 50, 60]);
+  assert.deepEqual(spread([1, 2, 99], [10, 20, 10], 0, 100).map((x) => Math.round(x)), [5, 20, 95]);
+  assert.deepEqual(spread([], [], 0, 100), []);
 });

@@ -1,9 +1,15 @@
 """Who is let in, what is answered with which headers, and what the static files hold."""
 
 import asyncio
+import contextlib
+import gzip
 import re
-import zlib
+import threading
+import time
+import urllib.request
 from collections.abc import MutableMapping
+from http.client import HTTPException
+from importlib.resources import files
 from typing import Any
 
 import pytest
@@ -137,11 +143,50 @@ def test_a_request_by_another_name_is_refused(app: Any) -> None:
     assert get(app, "/", HOST, method="POST")[0] == 405
 
 
-def test_static_files_stay_within_their_budget() -> None:
-    """They name no other site but the name space of SVG, hold no inline script, and are small."""
+def downloaded(app: Any) -> dict[str, bytes]:
+    """What a browser that takes zipped answers is sent when it opens the page, by name."""
+    found, wanted = dict[str, bytes](), ["index.html"]
+    while wanted:
+        name = wanted.pop()
+        if name not in found:
+            path = "/" if name == "index.html" else f"/{name}"
+            status, about, found[name] = get(app, path, HOST, (b"accept-encoding", b"gzip, br"))
+            assert (status, about["content-encoding"]) == (200, "gzip")
+            text = gzip.decompress(found[name]).decode()
+            wanted += re.findall(r'(?:href|src)="([^"]+)"|from "\./(\w+\.js)"', text)
+            wanted = ["".join(each) for each in wanted]
+    return found
+
+
+def test_what_a_browser_downloads_stays_within_its_budget(app: Any) -> None:
+    """All but the notebook's own script; before and after it is unzipped."""
+    found = downloaded(app)
+    assert set(FILES) - set(found) == {"widget.js"}
+    assert sum(map(len, found.values())) < 80_000
+    assert sum(len(gzip.decompress(body)) for body in found.values()) < 250_000
+    for name, body in found.items():
+        assert gzip.decompress(body) == FILES[name][0]
+
+
+def test_scripts_are_sent_without_their_comments_and_else_as_they_are() -> None:
+    """Each statement stands in its line; a word within quotes is no comment."""
+    for each in files("assoc_hull.page").joinpath("static").iterdir():
+        if not each.name.endswith(".js"):
+            continue
+        written, sent = each.read_text().splitlines(), SCRIPTS[each.name].splitlines()
+        assert len(written) == len(sent)
+        assert not re.search(r"/\*|\*/|^ *//", SCRIPTS[each.name], re.M)
+        block = False
+        for line, short in zip(written, sent, strict=True):
+            block |= line.lstrip().startswith("/**")
+            if not block and "/**" not in line and not line.lstrip().startswith("//"):
+                assert short == line
+            block &= "*/" not in line
+
+
+def test_static_files_name_no_other_site_and_hold_no_inline_script() -> None:
+    """But the name space of SVG."""
     whole = b"".join(body for body, _ in FILES.values())
-    assert len(whole) < 250_000
-    assert sum(len(zlib.compress(body, 9)) for body, _ in FILES.values()) < 80_000
     addresses = set(re.findall(rb"https?:[^\s\"'`)]*", whole))
     assert addresses <= {b"http://www.w3.org/2000/svg"}
     page = FILES["index.html"][0].decode()
@@ -225,3 +270,33 @@ def test_a_dropped_file_is_taken_from_its_own_page_only(app: Any, given: bytes |
     assert get(app, "/drop", HOST, *more, method="POST")[0] == 403
     assert get(app, "/drop", (b"host", b"evil.example"), (b"x-token", b"token"),
                method="POST")[0] == 403  # fmt: skip
+
+
+def test_a_server_does_not_wait_for_a_file_that_it_reads(
+    shipped: Shipped, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A large mesh takes a minute; who leaves meanwhile leaves."""
+    begun, go = threading.Event(), threading.Event()
+
+    def slow(*_: Any) -> dict[str, Any]:
+        begun.set()
+        go.wait(60.0)
+        return {}
+
+    def drop(address: str) -> None:
+        at, _, given = address.partition("#")
+        headers = {"X-Token": given.split("&")[0].removeprefix("t=")}
+        asked = urllib.request.Request(f"{at}drop?name=a.stl", b"solid", headers)
+        with contextlib.suppress(OSError, HTTPException):  # the server leaves
+            urllib.request.urlopen(asked, timeout=30.0).close()
+
+    monkeypatch.setattr("assoc_hull.page.app._told_of", slow)
+    with PageServer(shipped("wigley")) as server:
+        hand = threading.Thread(target=drop, args=(server.address,))
+        hand.start()
+        assert begun.wait(30.0)
+        begin = time.monotonic()
+    took = time.monotonic() - begin
+    go.set()
+    hand.join(30.0)
+    assert took < 5.0

@@ -16,6 +16,7 @@ from assoc_hull.edit.drag import Drag, Live
 from assoc_hull.page.ghosts import ghost_of_edits
 from assoc_hull.page.messages import (
     Apply,
+    AskFairness,
     AskHydrostatics,
     AskPreview,
     AskWhy,
@@ -28,6 +29,7 @@ from assoc_hull.page.messages import (
     Parameters,
     Redo,
     Sign,
+    Stop,
     To,
     Undo,
     Vary,
@@ -444,6 +446,64 @@ def test_an_answer_that_takes_long_keeps_no_other_waiting(
     going.set()
     page.ask(AskPreview(4, [{"op": "pull", "point": POINT, "d": 0.02}]))
     assert page.text("answer")["id"] == 4
+
+
+def endless(begun: threading.Event, ended: threading.Event) -> Callable[..., Any]:
+    """Make an answer that never comes; it tells when it has begun, and when it was ended."""
+
+    def run(*_: Any) -> Any:
+        begun.set()
+        try:
+            while True:
+                time.sleep(0.001)
+        finally:
+            ended.set()
+
+    return run
+
+
+def test_an_answer_is_stopped_and_others_come(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The list of the fairing panel is ended while it is made; nothing is told of it."""
+    begun, ended = threading.Event(), threading.Event()
+    monkeypatch.setattr("assoc_hull.page.session.describe_fairness", endless(begun, ended))
+    page = Page(session).enter()
+    page.ask(AskFairness(1))
+    assert begun.wait(30.0)
+    page.ask(AskHydrostatics(2))
+    page.ask(Stop(1))
+    assert ended.wait(5.0)
+    assert page.text("answer")["id"] == 2
+    assert all(getattr(each, "sequence", 0) != 1 for each in page.told)
+
+
+def test_who_leaves_ends_what_was_asked(session: Session, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another page's question does not wait for that of a page that has gone."""
+    begun, ended = threading.Event(), threading.Event()
+    monkeypatch.setattr("assoc_hull.page.session.describe_fairness", endless(begun, ended))
+    anna, bert = Page(session).enter(), Page(session, "bert").enter()
+    anna.ask(AskFairness(1))
+    assert begun.wait(30.0)
+    bert.ask(AskHydrostatics(1))
+    session.leave(anna)
+    assert ended.wait(5.0)
+    assert bert.text("answer")["id"] == 1
+
+
+def test_a_session_does_not_wait_for_its_answers(
+    hull: ah.Hull, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It closes at once, whatever is being computed, and that ends too."""
+    begun, ended = threading.Event(), threading.Event()
+    monkeypatch.setattr("assoc_hull.page.session.describe_fairness", endless(begun, ended))
+    session = Session(hull)
+    Page(session).enter().ask(AskFairness(1))
+    assert begun.wait(30.0)
+    begin = time.monotonic()
+    session.close()
+    assert time.monotonic() - begin < 2.0
+    assert ended.wait(5.0)
 
 
 def test_why_tells_movement_off_the_hull_apart_from_slides(page: Page, hull: ah.Hull) -> None:

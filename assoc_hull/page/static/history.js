@@ -1,6 +1,7 @@
-// Panels that tell of the hull: its steps, why the chosen moved last, hydrostatics and sectional areas.
+// What has changed the hull: all steps, going back to one, comparing with it; why the chosen moved last.
 
-import {Asker, button, link, paragraph} from "./asker.js";
+import {Asker} from "./asker.js";
+import {button, form, link, make, paragraph} from "./elements.js";
 import {millimetres, signed} from "./units.js";
 
 /** @typedef {{number: number, parent: number, name: string, way: number, author: string, time: string, normal: number | null}} Step */
@@ -15,22 +16,16 @@ function ago(time) {
 }
 
 export class Past extends Asker {
-  /** @param {import("./page.js").Page} page @param {HTMLElement} box */
+  /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
     /** The list comes unasked, also while something else is waited for. */
     this.listed = 0;
-    this.name = document.createElement("input");
-    this.name.setAttribute("aria-label", "name of the present state");
-    this.name.placeholder = "name of this state";
-    this.name.maxLength = 80;
+    this.name = make("input", {ariaLabel: "name of the present state", placeholder: "name of this state", maxLength: 80});
     this.name.onkeydown = (event) => {
       if (event.key === "Enter") this.#keep();
     };
-    const form = document.createElement("div");
-    form.className = "form";
-    form.append(this.name, button("Keep under this name", () => this.#keep()));
-    box.append(form, this.words, this.list);
+    box.append(form(this.name, button("Keep under this name", () => this.#keep())), this.words, this.list);
   }
 
   render() {
@@ -69,11 +64,10 @@ export class Past extends Asker {
 
   /** @param {{head: number, steps: Step[], older: number, labels: {name: string, step: number}[]}} found */
   #show(found) {
-    const list = document.createElement("ol");
-    list.className = "steps";
+    const list = make("ol", {className: "steps"});
     const first = {number: 0, parent: 0, name: "the hull as it came", way: 1, author: "", time: "", normal: null};
     for (const step of [...found.steps].reverse().concat([first])) {
-      const item = document.createElement("li"), names = found.labels.filter((each) => each.step === step.number).map(({name}) => name);
+      const item = make("li"), names = found.labels.filter((each) => each.step === step.number).map(({name}) => name);
       const here = step.number === found.head, note = here ? "the present state" : step.way < 0 ? "taken back" : step.way ? "" : `on a branch from step ${step.parent}`;
       const title = here ? paragraph(step.name, "now") : link(step.name, () => this.#go(step.number));
       if (here) item.setAttribute("aria-current", "step");
@@ -99,7 +93,7 @@ export class Past extends Asker {
 /** @typedef {{name: string, what: string, moved: number | null, slid: number | null, left: number, stopped: string[], causes: Cause[]}} Cause */
 
 export class WhyPanel extends Asker {
-  /** @param {import("./page.js").Page} page @param {HTMLElement} box */
+  /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
     box.append(this.words, this.list);
@@ -124,17 +118,16 @@ export class WhyPanel extends Asker {
     if (message.id !== this.asked || !message.value) return;
     const {edit, step, because, tree} = message.value;
     this.words.textContent = edit === null ? `${tree.name} is as it came: no edit has reached it.` : `Last moved by step ${step}, “${edit}”${because ? `: ${because}` : ""}.`;
-    const list = document.createElement("ul");
-    list.className = "tree";
+    const list = make("ul", {className: "tree"});
     if (edit !== null) list.append(this.#item(tree));
     this.list.replaceChildren(list);
   }
 
   /** @param {Cause} cause */
   #item(cause) {
-    const item = document.createElement("li"), moved = (cause.moved === null ? "" : `, moved ${millimetres(cause.moved)}`) + (cause.slid ? `, slid ${millimetres(cause.slid)}` : "");
+    const item = make("li"), moved = (cause.moved === null ? "" : `, moved ${millimetres(cause.moved)}`) + (cause.slid ? `, slid ${millimetres(cause.slid)}` : "");
     item.append(link(cause.name, () => this.page.find(cause.name)), ` ${cause.what}${moved}`);
-    const below = document.createElement("ul");
+    const below = make("ul");
     for (const each of cause.causes) below.append(this.#item(each));
     if (cause.left) below.append(this.#note(cause.causes.length ? `${cause.left} more moved less` : `made from ${cause.left} more: click it`));
     if (cause.stopped.length) below.append(this.#note(`came out as they were: ${cause.stopped.slice(0, 3).join(", ")}`));
@@ -144,88 +137,8 @@ export class WhyPanel extends Asker {
 
   /** @param {string} words */
   #note(words) {
-    const item = document.createElement("li");
+    const item = make("li");
     item.append(paragraph(words));
     return item;
-  }
-}
-
-const SVG = "http://www.w3.org/2000/svg", WIDE = 480, HIGH = 190;
-/** @type {Record<string, string>} */
-const POWERS = {m2: "m²", m3: "m³", m4: "m⁴", "-": ""};
-/** @typedef {{name: string, unit: string, meaning: string, digits: number, value: number | null, change: number | null, error: number | null}} Value */
-
-/** @param {string} name @param {Record<string, string | number>} given */
-function draw(name, given) {
-  const found = document.createElementNS(SVG, name);
-  for (const [key, value] of Object.entries(given)) found.setAttribute(key, String(value));
-  return found;
-}
-
-/** Areas at any x, in proportion between stations. @param {[number[], number[]]} curve @param {number} at */
-function between([x, area], at) {
-  const i = x.findIndex((each) => each >= at);
-  if (i < 0 || (i === 0 && x[0] > at)) return 0;
-  return i === 0 ? area[0] : area[i - 1] + (area[i] - area[i - 1]) * (at - x[i - 1]) / (x[i] - x[i - 1]);
-}
-
-export class Numbers extends Asker {
-  /** @param {import("./page.js").Page} page @param {HTMLElement} box */
-  constructor(page, box) {
-    super(page, box);
-    this.cursor = paragraph("");
-    box.append(this.words, this.list, this.cursor);
-  }
-
-  render() { this.fresh(String(this.page.store.state), () => this.ask({t: "hydrostatics"}, "Measuring …")); }
-
-  /** @param {{id: number, value: any}} message */
-  answer(message) {
-    if (message.id !== this.asked || !message.value) return;
-    const {draught, values, notes, areas, areas_before: before} = message.value;
-    this.words.textContent = [`At the design draught, ${draught.toFixed(3)} m; changes since the session began.`, ...notes.slice(0, 3)].join(" ");
-    const table = document.createElement("table"), body = table.createTBody();
-    for (const each of /** @type {Value[]} */ (values)) {
-      const row = body.insertRow(), unit = POWERS[each.unit] ?? each.unit, head = document.createElement("th");
-      head.scope = "row";
-      const [symbol, below] = each.name.split("_");
-      head.textContent = symbol;
-      if (below) head.append(Object.assign(document.createElement("sub"), {textContent: below}));
-      row.title = `${each.meaning}${each.error === null ? "" : `; may be off by ${each.error.toPrecision(1)} ${unit}`}`;
-      row.append(head);
-      row.insertCell().textContent = each.value === null ? "not known" : `${each.value.toFixed(each.digits)} ${unit}`;
-      row.insertCell().textContent = each.change === null ? "" : signed(each.change, each.digits, unit);
-    }
-    this.list.replaceChildren(table, this.#areas(areas, before));
-    this.cursor.textContent = "Sectional areas, both sides: line now, dashed when the session began, bars 8 × the difference.";
-  }
-
-  /** @param {[number[], number[]]} now @param {[number[], number[]]} then */
-  #areas(now, then) {
-    const [x, area] = now, x0 = Math.min(...x, ...then[0]), x1 = Math.max(...x, ...then[0]), most = Math.max(...area, ...then[1], 1e-9);
-    const px = (/** @type {number} */ at) => 6 + (WIDE - 12) * (at - x0) / (x1 - x0 || 1), py = (/** @type {number} */ a) => HIGH - 50 - (HIGH - 74) * a / most;
-    const picture = draw("svg", {viewBox: `0 0 ${WIDE} ${HIGH}`, class: "areas", role: "img", "aria-label": `sectional areas, largest ${most.toFixed(1)} square metres`});
-    const path = (/** @type {[number[], number[]]} */ [xs, as], /** @type {string} */ name) => picture.append(draw("polyline", {points: xs.map((each, i) => `${px(each).toFixed(1)},${py(as[i]).toFixed(1)}`).join(" "), class: name}));
-    picture.append(draw("line", {x1: 6, x2: WIDE - 6, y1: py(0), y2: py(0), class: "axis"}));
-    x.forEach((each, i) => {
-      const by = 8 * (area[i] - between(then, each)), high = Math.min(Math.abs(py(by) - py(0)), 28);
-      if (high > 0.5) picture.append(draw("rect", {x: px(each) - 2, width: 4, y: by > 0 ? py(0) - high : py(0), height: high, class: "bar"}));
-    });
-    path(then, "then");
-    path(now, "now");
-    const label = (/** @type {number} */ at, /** @type {number} */ y, /** @type {string} */ words, /** @type {string} */ anchor) => {
-      const text = draw("text", {x: at, y, "text-anchor": anchor});
-      text.textContent = words;
-      picture.append(text);
-    };
-    label(6, HIGH - 4, `x ${x0.toFixed(1)} m`, "start");
-    label(WIDE - 6, HIGH - 4, `${x1.toFixed(1)} m`, "end");
-    label(6, 18, `${most.toFixed(1)} m²`, "start");
-    picture.addEventListener("pointermove", (event) => {
-      const box = picture.getBoundingClientRect(), at = x0 + (x1 - x0) * ((/** @type {PointerEvent} */ (event).clientX - box.left) / box.width * WIDE - 6) / (WIDE - 12), clamped = Math.min(Math.max(at, x0), x1);
-      const a = between(now, clamped);
-      this.cursor.textContent = `x ${clamped.toFixed(2)} m: A ${a.toFixed(2)} m², ${signed(a - between(then, clamped), 3, "m²")}`;
-    });
-    return picture;
   }
 }

@@ -1,0 +1,352 @@
+// Names of lines, as on a lines plan: in the line itself where they cover no other, else beside the drawing with a leader.
+
+import {pathsOf} from "./view.js";
+import {dotsOf} from "./marks.js";
+
+/** A name that is to be written: of which line, at its end or where a leader ends. @typedef {{line: Line, name: string, key: string, x: number, y: number, gap: number, colour: string}} Spot */
+
+const LETTERS = "11px system-ui, sans-serif", HIGH = 12, UPRIGHT = 10, CELL = 3, EDGE = 10; // px
+const COLUMN = 12, LEAST_GAP = 0.2, NEAR_GAP = 5, FREE_GAP = 9, TOLD = 1.5, PLAIN = 4; // px
+const SLANT = 0.4, APART = 7;
+const MANY = 0xffff, DOT = 0xfffe; // what a cell holds beside numbers of lines
+
+/** Names that stand already, and the cells of the picture that lines and marks cover. */
+class Places {
+  /** @param {CanvasRenderingContext2D} g @param {View} view @param {Record<string, string>} ink */
+  constructor(g, view, ink) {
+    this.g = g;
+    this.view = view;
+    this.ink = ink;
+    const {offsetLeft: l, offsetTop: t, offsetWidth: w, offsetHeight: h} = view.head, from = getComputedStyle(view.head).transform === "none" ? l : l - w / 2;
+    /** The first is the title. @type {Name[]} */
+    this.written = [{text: "", box: [from, t, from + w, t + h], colour: "", turned: false}];
+    this.left = 0;
+    /** @type {Map<string, number>} */
+    this.widths = new Map();
+    this.across = Math.ceil(view.width / CELL) + 1;
+    this.cells = new Uint16Array(this.across * (Math.ceil(view.height / CELL) + 1));
+    /** @type {Map<Line, number>} */
+    this.numbers = new Map();
+    for (const {id, path} of pathsOf(view)) {
+      const line = view.store.net?.lineOf(id);
+      if (line) this.#cover(path, this.number(line));
+    }
+    for (const row of dotsOf(view)) this.#dot(view.store.placeOf(row), 4);
+    const {marked, selection} = view.store;
+    if (marked) this.#dot(marked, 24);
+    if (selection.row !== null && view.rows().includes(selection.row)) this.#dot(view.store.placeOf(selection.row), 10);
+  }
+
+  /** @param {Line} line */
+  number(line) {
+    const known = this.numbers.get(line) ?? this.numbers.size + 1;
+    this.numbers.set(line, known);
+    return known;
+  }
+
+  /** Marks what a line covers; of long segments only what is seen. @param {Float32Array} path @param {number} number */
+  #cover(path, number) {
+    const {across, cells, view} = this, room = [view.width - 1, view.height - 1];
+    for (let i = 0; i + 3 < path.length; i += 2) {
+      const from = [path[i], path[i + 1]], by = [path[i + 2] - from[0], path[i + 3] - from[1]];
+      let low = 0, high = 1;
+      for (const j of [0, 1]) {
+        const ends = [-from[j] / by[j], (room[j] - from[j]) / by[j]].sort((p, q) => p - q);
+        if (by[j]) [low, high] = [Math.max(low, ends[0]), Math.min(high, ends[1])];
+        else if (from[j] < 0 || from[j] > room[j]) high = -1;
+      }
+      const n = Math.ceil((high - low) * Math.max(Math.abs(by[0]), Math.abs(by[1])) / CELL) + 1;
+      for (let k = 0; high >= low && k <= n; k++) {
+        const u = low + (high - low) * k / n, at = across * Math.floor((from[1] + u * by[1]) / CELL) + Math.floor((from[0] + u * by[0]) / CELL);
+        cells[at] = cells[at] && cells[at] !== number ? MANY : number;
+      }
+    }
+  }
+
+  /** @param {ArrayLike<number> | undefined} place @param {number} reach */
+  #dot(place, reach) {
+    if (!place) return;
+    const [x, y] = this.view.atPlace(place);
+    this.#within([x - reach, y - reach, x + reach, y + reach], (at) => {
+      this.cells[at] = DOT;
+      return false;
+    });
+  }
+
+  /** Whether a cell of a box is so. @param {number[]} box @param {(at: number) => boolean} so */
+  #within([l, t, r, b], so) {
+    const {width, height} = this.view;
+    for (let y = Math.floor(Math.max(t, 0) / CELL); y <= Math.min(b, height - 1) / CELL; y++) {
+      for (let x = Math.floor(Math.max(l, 0) / CELL); x <= Math.min(r, width - 1) / CELL; x++) if (so(this.across * y + x)) return true;
+    }
+    return false;
+  }
+
+  /** Whether a mark lies there. @param {number[]} box */
+  dotted(box) { return this.#within(box, (at) => this.cells[at] === DOT); }
+
+  /** Whether there is nothing but the line of this number. @param {number[]} box @param {number} number */
+  clear(box, number) { return !this.#within(box, (at) => this.cells[at] > 0 && this.cells[at] !== number); }
+
+  /** Whether a box lies within the picture, and on no name. @param {number[]} box */
+  free([l, t, r, b]) {
+    return l >= 2 && t >= 2 && r <= this.view.width - 2 && b <= this.view.height - 1 && !this.written.some(({box: [L, T, R, B]}) => l < R + 4 && r > L - 4 && t < B && b > T);
+  }
+
+  /** @param {string} text */
+  wide(text) {
+    const known = this.widths.get(text) ?? this.g.measureText(text).width;
+    this.widths.set(text, known);
+    return known;
+  }
+
+  /** The room that a name takes. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align */
+  box(text, x, y, align) {
+    const w = this.wide(text), left = align === "center" ? x - w / 2 : align === "right" ? x - w : x;
+    return [left, y - HIGH / 2, left + w, y + HIGH / 2];
+  }
+
+  /** Finds room for a name, unless it would lie over another, or outside. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align @param {string} colour */
+  put(text, x, y, align, colour) {
+    const box = this.box(text, x, y, align), free = this.free(box);
+    if (free) this.written.push({text, box, colour, turned: false});
+    return free;
+  }
+
+  /** A name at the edge; where a mark lies on it, farther in along its grid line. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align @param {string} colour */
+  edge(text, x, y, align, colour) {
+    const away = align === "center" ? [[x, y], [x, y - 14], [x, y - 28], [x + 14, y], [x - 14, y]] : [0, 1, 2, 3].map((n) => [x + 16 * n, y]);
+    const [u, v] = away.find(([p, q]) => !this.dotted(this.box(text, p, q, align))) ?? [x, y];
+    return this.put(text, u, v, align, colour);
+  }
+
+  /** A name that stands upright on its foot. @param {string} text @param {number} x @param {number} y @param {string} colour */
+  upright(text, x, y, colour) { this.written.push({text, box: [x - UPRIGHT / 2, y - this.wide(text), x + UPRIGHT / 2, y], colour, turned: true}); }
+
+  /** Writes all names, over lines and leaders. */
+  write() {
+    const {g, ink} = this;
+    for (const {text, box: [l, t, r, b], colour, turned} of this.written.slice(1)) {
+      // A line that shows through a point reads as a colon.
+      g.fillStyle = ink.paper;
+      if (!turned) g.fillRect(l - 1, t, r - l + 2, b - t);
+      g.fillStyle = colour;
+      g.save();
+      g.translate(turned ? (l + r) / 2 : l, turned ? b : (t + b) / 2);
+      if (turned) g.rotate(-Math.PI / 2);
+      g.fillText(text, 0, 0);
+      g.restore();
+    }
+    this.view.written = this.written;
+  }
+}
+
+/** @param {string} name */
+const short = (name) => name.replace(/^(ST|WL|BTK|DIA|FR) /, "");
+/** Whole stations go first, so that halves give way. @param {string} name */
+const half = (name) => Number(!/^\d+$/.test(name));
+
+/** @param {View} view @param {CanvasRenderingContext2D} g @param {Record<string, string>} ink */
+export function drawLabels(view, g, ink) {
+  const net = view.store.net;
+  if (!net || view.kind === "wire") return;
+  g.font = LETTERS;
+  g.textBaseline = "middle";
+  g.textAlign = "left";
+  const places = new Places(g, view, ink), {x0, x1, y1, z0, z1} = view.box(), ship = net.particulars, body = view.kind === "body";
+  const of = (/** @type {string} */ family) => net.lines.filter((line) => line.family === family && line.offset !== null && line.axis !== null);
+  const left = places.left = Math.max(view.at(body ? 0 : x0, y1, 0, -1)[0] - 8, 40);
+  const foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
+  places.edge(body ? "BTK" : "ST", left, foot + 12, "right", ink.soft); // first, or a label has its place
+  if (body) stations(places);
+  if (view.kind !== "half") {
+    places.edge("DWL", left, view.at(0, 0, ship.draught, 1)[1], "right", ink.water);
+    places.edge("BL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
+    column(places, "WL", of("waterlines"), (z) => view.at(0, 0, z, 1)[1]);
+  }
+  if (body) {
+    const names = [...of("buttocks")].reverse();
+    for (const side of [-1, 1]) for (const line of names) places.edge(short(line.name), view.at(0, line.offset ?? 0, 0, side)[0], foot + 12, "center", ink.soft);
+    if (view.at(0, 0, z0, 1)[1] < view.height) for (const [text, side] of /** @type {[string, number][]} */ ([["aft", -1], ["fore", 1]])) places.put(text, view.at(0, y1 / 2, 0, side)[0], foot + 26, "center", ink.soft);
+  } else {
+    places.put("AP", view.at(0, 0, 0, 1)[0], foot + 26, "center", ink.soft);
+    places.put("FP", view.at(ship.length, 0, 0, 1)[0], foot + 26, "center", ink.soft);
+    const all = of("sections").map((line) => ({name: short(line.name), x: view.at(line.offset ?? 0, 0, 0, 1)[0]})).sort((p, q) => half(p.name) - half(q.name));
+    for (const {name, x} of all) places.edge(name, x, foot + 12, "center", ink.soft);
+    if (view.kind === "half") {
+      places.edge("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
+      column(places, "BTK", of("buttocks"), (y) => view.at(0, y, 0, 1)[1]);
+    }
+    const written = new Set(), spots = spotsOf(places);
+    within(places, spots, written, 0);
+    // Where the top of the drawing is out of the picture, names above it would lie on lines.
+    if (view.at(x1, y1, z1, 1)[1] > EDGE + 20) led(places, spots, written);
+    else within(places, spots, written, NEAR_GAP);
+  }
+  places.write();
+}
+
+/** Names of the grid at the left, with their family above the highest. @param {Places} places @param {string} family @param {Line[]} lines @param {(offset: number) => number} at */
+function column(places, family, lines, at) {
+  const {ink} = places, rows = lines.map(({name, offset}) => ({name: short(name), y: at(offset ?? 0)}));
+  // One at the edge leaves no room for the family.
+  const written = rows.filter(({name, y}) => y >= EDGE + HIGH + 1 && places.edge(name, places.left, y, "right", ink.soft)).map(({y}) => y);
+  if (written.length) places.put(family, places.left, Math.min(...written) - HIGH - 1, "right", ink.soft);
+}
+
+/** Stations stand above their ends; those that end where others do along themselves, if there is room. @param {Places} places */
+function stations(places) {
+  const {view, ink} = places, {net, curves} = view.store;
+  /** @type {Spot[]} */
+  const ends = [];
+  for (const line of net?.lines ?? []) {
+    const sides = line.family === "sections" ? view.sides(line) : null;
+    // A line of several curves is named where it ends highest.
+    const tops = line.curves.flatMap((id) => { const c = curves.get(id); return c ? [c.xyz.subarray(0, 3), c.xyz.subarray(-3)] : []; }).sort((p, q) => q[2] - p[2]);
+    for (const side of tops.length ? sides ?? [] : []) {
+      const [x, y] = view.at(tops[0][0], tops[0][1], tops[0][2], side);
+      // One that ends outside the picture is named along itself.
+      if (y >= 20 && y < view.height && x > 0 && x < view.width) ends.push({line, name: short(line.name), key: line.name + true, x, y, gap: 0, colour: ink.sections});
+    }
+  }
+  // Of those that end in one place the order is that of the ship.
+  const order = (/** @type {Spot} */ p, /** @type {Spot} */ q) => Math.round(p.x) - Math.round(q.x) || (q.line.offset ?? 0) - (p.line.offset ?? 0);
+  ends.sort(order);
+  ends.forEach((each, i) => each.gap = Math.min(each.x - (ends[i - 1]?.x ?? -Infinity), (ends[i + 1]?.x ?? Infinity) - each.x));
+  const written = new Set(), spots = spotsOf(places), alone = ends.filter(({gap}) => gap > TOLD);
+  const long = Math.max(...ends.map(({name}) => places.wide(name)), 0), top = Math.max(view.at(0, 0, view.box().z1, 1)[1] - 14, long + 6);
+  const room = Math.floor((view.width - 8) / UPRIGHT);
+  for (const {key} of alone) written.add(key);
+  within(places, spots, written, 0);
+  // Those that are named nowhere share the end of others, as on paper.
+  const fan = [...alone, ...ends.filter(({key}) => !written.has(key))].sort((p, q) => half(p.name) - half(q.name)).slice(0, room).sort(order);
+  for (const {key} of alone) if (!fan.some((each) => each.key === key)) written.delete(key);
+  for (const {key} of fan) written.add(key);
+  const xs = spread(fan.map(({x}) => x), fan.map(() => UPRIGHT), 4, view.width - 4);
+  fan.forEach(({name, x, y, colour}, i) => {
+    leader(places, [[x, y - 1], [xs[i], top]], colour, false);
+    places.upright(name, xs[i], top - 2, colour);
+  });
+  // The family stands at the left, or in the widest gap.
+  const gap = xs.slice(1).map((x, i) => ({x: (x + xs[i]) / 2, wide: x - xs[i]})).reduce((p, q) => q.wide > p.wide ? q : p, {x: 0, wide: 0});
+  if (fan.length && !places.put("ST", xs[0] - 10, top - 8, "right", ink.sections)) places.put("ST", gap.x, top - 8, "center", ink.sections);
+  within(places, spots, written, FREE_GAP);
+}
+
+/** Where lines of the view's own family meet upright lines, and how far their neighbours are there, px. @param {Places} places @returns {Spot[]} */
+function spotsOf(places) {
+  const {view, ink} = places, {net} = view.store, body = view.kind === "body", from = Math.max(places.left, 0), n = Math.floor((view.width - from) / COLUMN);
+  const middle = view.at(body ? 0 : view.midship, 0, 0, 1)[0];
+  /** @type {{id: number, y: number}[][]} */
+  const met = Array.from({length: Math.max(n, 0)}, () => []);
+  /** @type {Spot[]} */
+  const found = [];
+  for (const {id, path} of pathsOf(view)) for (let i = 0; i + 3 < path.length; i += 2) {
+    const a = path[i], b = path[i + 2], last = Math.min((Math.max(a, b) - from) / COLUMN - 1, n - 1);
+    for (let k = Math.max(Math.ceil((Math.min(a, b) - from) / COLUMN - 1), 0); k <= last; k++) {
+      const x = from + COLUMN * (k + 1);
+      if (a <= x !== b <= x) met[k].push({id, y: path[i + 1] + (path[i + 3] - path[i + 1]) * (x - a) / (b - a)});
+    }
+  }
+  for (const [k, column] of met.entries()) {
+    const x = from + COLUMN * (k + 1);
+    // Over the centre plane it would name aft and fore body.
+    if (body && Math.abs(x - middle) < 4) continue;
+    column.sort((p, q) => p.y - q.y).forEach(({id, y}, i) => {
+      const line = net?.lineOf(id), gap = Math.min(y - (column[i - 1]?.y ?? -Infinity), (column[i + 1]?.y ?? Infinity) - y);
+      if (line && line.family !== "boundary" && y > 0 && y < view.height) found.push({line, name: short(line.name), key: line.name + (body || x > middle), x, y, gap: Math.min(gap, 40), colour: ink[line.family] || ink.ink});
+    });
+  }
+  return found.sort((p, q) => q.gap - p.gap);
+}
+
+/** Names in lines, once in either half; where `least` is 0, only where they cover nothing else. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} least */
+function within(places, spots, written, least) {
+  const {view} = places, middle = view.kind === "body" ? view.at(0, 0, 0, 1)[0] : -Infinity;
+  for (const {line, name, key, x, y, gap, colour} of spots) {
+    if (written.has(key) || gap <= least) continue;
+    const off = x - middle, align = Math.abs(off) > 20 ? "center" : off < 0 ? "right" : "left", box = places.box(name, x, y, align);
+    if (box[0] < places.left + 4) continue; // there names of the grid stand
+    if (least ? places.dotted(box) : !places.clear(box, places.number(line))) continue;
+    if (places.put(name, x, y, align, colour)) written.add(key);
+  }
+}
+
+/** The others stand above the drawing in two rows, with leaders. @param {Places} places @param {Spot[]} spots @param {Set<string>} written */
+function led(places, spots, written) {
+  const {view} = places, {x1, y1, z1} = view.box(), top = Math.max(view.at(x1, y1, z1, 1)[1] - 6, EDGE + 24), far = view.width - 4;
+  const wide = (/** @type {Spot} */ {name}) => places.wide(name), widest = Math.max(...spots.map(wide), 0), room = widest / 2 + 5;
+  const chosen = knees(places, spots, written, top, room), xs = spread(chosen.map(({knee}) => knee), chosen.map(() => room), places.left + room / 2, far - widest / 2 + room / 2);
+  let low = -Infinity;
+  chosen.forEach((each, i) => {
+    const up = xs[i] - wide(each) / 2 < low + 6 ? 12 : 0;
+    if (!up) low = xs[i] + wide(each) / 2;
+    if (!i) places.put(each.line.name.split(" ")[0], xs[i] - wide(each) / 2 - 7, top - 14 - up, "right", each.colour);
+    if (places.put(each.name, xs[i], top - 14 - up, "center", each.colour)) leader(places, [[each.x, each.y], [each.knee, top], [xs[i], top - 8 - up]], each.colour, true);
+  });
+}
+
+/** Where leaders end on lines without a name, and where they leave the drawing: all slant, so that none crosses another. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} top @param {number} room */
+function knees(places, spots, written, top, room) {
+  const {view} = places, middle = view.at(view.midship, 0, 0, 1)[0], way = view.kind === "half" ? -1 : 1, far = view.width - 4;
+  const named = (/** @type {string} */ line) => written.has(`${line}true`) || written.has(`${line}false`);
+  /** @type {(Spot & {knee: number})[]} */
+  const chosen = [];
+  // First the lines that are named nowhere, then those that are in one half only.
+  for (const once of [true, false]) {
+    /** @type {Map<string, Spot[]>} */
+    const of = new Map(), last = [places.left, far];
+    for (const each of spots) if (!written.has(each.key) && each.y > top && each.gap > (once ? LEAST_GAP : PLAIN) && !(once && named(each.line.name))) {
+      const key = once ? each.line.name : each.key, known = of.get(key);
+      if (known) known.push(each);
+      else of.set(key, [each]);
+    }
+    for (const all of [...of.values()].sort(([p], [q]) => way * ((p.line.offset ?? 0) - (q.line.offset ?? 0)))) {
+      if ((chosen.length + 1) * room > far - places.left) break;
+      const best = all.map((each) => {
+        const aft = each.x < middle, knee = Math.min(Math.max(each.x + (aft ? -1 : 1) * SLANT * (each.y - top), places.left), far);
+        const free = Math.min(...chosen.map((other) => Math.abs(other.knee - knee)), room), turned = aft ? knee < last[0] : knee > last[1];
+        // Near, told from its neighbours, with room for the name, in the order of the lines.
+        return {...each, knee, aft, cost: free < APART ? Infinity : 0.6 * (each.y - top) + 25 * Math.max(PLAIN - each.gap, 0) + 6 * Math.max(2 * PLAIN - each.gap, 0) + 2 * (room - free) + (turned ? 150 : 0)};
+      }).reduce((p, q) => q.cost < p.cost ? q : p);
+      if (best.cost === Infinity) continue;
+      last[best.aft ? 0 : 1] = best.knee;
+      chosen.push(best);
+      written.add(best.key);
+    }
+  }
+  return chosen.sort((p, q) => p.knee - q.knee);
+}
+
+/** @param {Places} places @param {number[][]} way @param {string} colour @param {boolean} dot */
+function leader({g}, way, colour, dot) {
+  g.strokeStyle = g.fillStyle = colour;
+  g.lineWidth = 0.7;
+  g.globalAlpha = 0.75;
+  g.beginPath();
+  way.forEach(([x, y], i) => i ? g.lineTo(x, y) : g.moveTo(x, y));
+  g.stroke();
+  g.globalAlpha = 1;
+  if (!dot) return;
+  g.beginPath();
+  g.arc(way[0][0], way[0][1], 1.7, 0, 7);
+  g.fill();
+}
+
+/** Places of names in a row, each as near to its own as the others let it. @param {number[]} wanted from the left @param {number[]} widths @param {number} low @param {number} high */
+export function spread(wanted, widths, low, high) {
+  let sum = 0;
+  const offsets = widths.map((w, i) => sum += i ? (widths[i - 1] + w) / 2 : 0);
+  /** @type {{mean: number, n: number}[]} */
+  const blocks = [];
+  for (const [i, x] of wanted.entries()) {
+    let block = {mean: x - offsets[i], n: 1};
+    while (blocks.length && blocks[blocks.length - 1].mean > block.mean) {
+      const last = /** @type {{mean: number, n: number}} */ (blocks.pop());
+      block = {mean: (last.mean * last.n + block.mean * block.n) / (last.n + block.n), n: last.n + block.n};
+    }
+    blocks.push(block);
+  }
+  const least = low + (widths[0] ?? 0) / 2, most = high - (widths.at(-1) ?? 0) / 2 - sum;
+  return blocks.flatMap(({mean, n}) => Array.from({length: n}, () => Math.max(Math.min(mean, most), least))).map((at, i) => at + offsets[i]);
+}

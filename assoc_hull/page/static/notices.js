@@ -1,0 +1,86 @@
+// What the page says: a refusal beside its point; in live regions, once a second at most; in its foot.
+
+import {make} from "./elements.js";
+import {signed} from "./units.js";
+
+const READ = 6000; // ms
+const WIDE = 440, REASONS = 3;
+
+/** @param {Page} page */
+export function placeBubble(page) {
+  const {store} = page, {refusal} = store, view = page.activeView();
+  let bubble = /** @type {HTMLElement | null} */ (page.root.querySelector(".bubble"));
+  if (!refusal) return bubble?.remove();
+  if (!bubble) {
+    bubble = make("div", {className: "bubble"});
+  }
+  if (bubble.parentElement !== view.element) view.element.append(bubble);
+  const words = shortened(refusal.text);
+  if (bubble.textContent !== words) bubble.textContent = words;
+  const [x, y] = refusal.place && view.kind !== "wire" ? view.atPlace(refusal.place) : [view.width / 2, 40];
+  const wide = Math.min(WIDE, view.width - 16);
+  bubble.style.maxWidth = `${wide}px`;
+  const right = x < view.width / 2, below = y < view.height / 2;
+  bubble.style.left = right ? `${Math.min(Math.max(x + 18, 8), Math.max(view.width - wide - 8, 8))}px` : "auto";
+  bubble.style.right = right ? "auto" : `${Math.min(Math.max(view.width - x + 18, 8), Math.max(view.width - wide - 8, 8))}px`;
+  bubble.style.maxHeight = `${Math.max(below ? view.height - y - 26 : y - 26, 60)}px`; // its first words are never cut
+  bubble.style.top = below ? `${Math.min(Math.max(y + 18, 28), view.height - 60)}px` : "auto";
+  bubble.style.bottom = below ? "auto" : `${Math.min(Math.max(view.height - y + 18, 8), view.height - 60)}px`;
+}
+
+/** A pull that goes much too far folds every line: the first reasons tell enough. @param {string} text */
+function shortened(text) {
+  const reasons = text.split("\n"), more = reasons.length - REASONS;
+  return more > 0 ? [...reasons.slice(0, REASONS), `and ${more} more ${more === 1 ? "reason" : "reasons"}`].join("\n") : text;
+}
+
+const PAUSE = 1000; // ms
+
+export class Speaker {
+  /** @param {HTMLElement} root */
+  constructor(root) {
+    const [polite, urgent] = ["polite", "assertive"].map((how) => {
+      const region = make("div", {className: "spoken"});
+      region.setAttribute("aria-live", how);
+      root.append(region);
+      return region;
+    });
+    this.polite = polite;
+    this.urgent = urgent;
+    this.last = 0;
+    this.refused = "";
+  }
+
+  /** @param {string} words */
+  say(words) { this.polite.textContent = words; }
+
+  /** @param {Store} store */
+  listen(store) {
+    const refused = store.refusal?.text ?? store.problem ?? "";
+    if (refused !== this.refused) this.urgent.textContent = this.refused = refused;
+    const {held, overlay, net} = store, now = performance.now();
+    if (!held || !overlay || held.amount === null || now - this.last < PAUSE) return;
+    this.last = now;
+    const name = net?.points.get(held.row)?.name ?? "";
+    this.say(`${name}, ${held.how} ${(1e3 * held.amount).toFixed(1)} millimetres, ${overlay.frame.curves.size} curves follow, volume about ${signed(overlay.frame.volume, 1, "cubic metres")}`);
+  }
+}
+
+/** What went wrong, what was said or can be done, and figures of what is in hand. @param {Page} page */
+export function writeFoot(page) {
+  const {store} = page, {held, overlay} = store;
+  const gone = store.connection === "lost" || store.connection === "over";
+  page.root.classList.toggle("gone", gone);
+  page.banner.hidden = !gone && !store.problem;
+  page.banner.textContent = gone ? store.reason : store.problem ?? "";
+  const hints = store.shaping ? "Re-shape: click where the line is to pass, drag a place, Backspace removes the last, Enter shows the answer, Esc gives up"
+    : held?.how === "pull" ? "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
+    : held ? "Move: Alt is ten times finer, Shift locks an axis, Esc cancels"
+    : store.selection.row !== null ? "Drag, or use the arrows: 1 mm, Shift 10 mm, Alt 0.1 mm" : "Click a point or a line; drag the ground to pan, the wheel zooms";
+  // What was said is read before it gives way to a hint.
+  const said = !held && performance.now() - page.said.at < READ ? page.said.words : "";
+  page.status.textContent = store.connection === "connecting" ? "Connecting" : said || hints;
+  const view = page.activeView(), pixel = 1e3 / view.axis.s * (page.store.tools.fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
+  const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
+  page.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.net?.points.get(store.theirs.row)?.name ?? "a point"}` : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
+}

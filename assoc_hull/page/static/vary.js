@@ -1,0 +1,114 @@
+// A named parameter of the whole hull: the variant is shown as a ghost before it is made.
+
+import {Asker} from "./asker.js";
+import {button, form, make, paragraph} from "./elements.js";
+import {costWords} from "./propose.js";
+import {typedNumber} from "./units.js";
+
+/** @typedef {{name: string, unit: string, meaning: string, value: number | null, low: number | null, high: number | null, reason: string | null}} Parameter */
+
+/** How much one press on more or less is. @type {Record<string, number>} */
+const STEPS = {m: 0.1, m2: 1, m3: 100, deg: 1, "-": 0.01};
+
+/** @param {Parameter} found @param {string} unit */
+function spanWords({low, high}, unit) {
+  const words = [low === null ? "" : `from ${low.toFixed(3)}${unit}`, high === null ? "" : `up to ${high.toFixed(3)}${unit}`];
+  return words.filter(Boolean).join(" ") || "no limits";
+}
+
+export class Vary extends Asker {
+  /** @param {Page} page @param {HTMLElement} box */
+  constructor(page, box) {
+    super(page, box);
+    /** @type {Parameter[]} */
+    this.found = [];
+    /** The number of the answer that tells limits: each takes a moment. */
+    this.limits = 0;
+    this.choice = make("select", {ariaLabel: "parameter of the hull", onchange: () => this.#choose()});
+    this.about = paragraph("");
+    this.field = make("input", {inputMode: "decimal", onkeydown: (/** @type {KeyboardEvent} */ event) => {
+      if (event.key === "Enter") this.#ask(false);
+      if (event.key === "Escape") page.dropGhost();
+    }});
+    this.steps = [-1, 1].map((sign) => button("", () => this.#step(sign)));
+    this.form = form(this.choice, this.about, this.field, ...this.steps, button("Preview", () => this.#ask(false)), button("Apply", () => this.#ask(true)), button("Remove ghost", () => page.dropGhost()));
+    this.form.hidden = true;
+    box.append(button("List the parameters", () => this.all()), this.form, this.words);
+  }
+
+  all() {
+    this.ask({t: "parameters"}, "Looking …");
+    this.led = true;
+  }
+
+  #chosen() { return this.found.find(({name}) => name === this.choice.value); }
+
+  #choose() {
+    const found = this.#chosen();
+    if (!found || found.value === null) return;
+    const unit = found.unit === "-" ? "" : ` ${found.unit}`;
+    const told = this.about.textContent = `${found.meaning}: ${found.value.toFixed(3)}${unit} now; `;
+    this.about.append("looking for its limits …");
+    this.limits = this.page.request({t: "parameters", of: found.name});
+    /** @param {Parameter} each */
+    this.onLimits = (each) => {
+      Object.assign(found, each);
+      this.about.textContent = told + (each.reason ?? spanWords(each, unit));
+    };
+    this.field.value = found.value.toFixed(3);
+    this.field.setAttribute("aria-label", `wanted ${found.name}${unit && `,${unit}`}`);
+    this.words.textContent = "";
+    this.steps.forEach((each, i) => each.textContent = `${i ? "+" : "−"}${STEPS[found.unit] ?? STEPS["-"]}${unit}`);
+  }
+
+  /** The wanted value, a step more or less; within what is possible. @param {number} sign */
+  #step(sign) {
+    const found = this.#chosen(), value = typedNumber(this.field), base = Number.isFinite(value) ? value : found?.value ?? 0;
+    if (!found) return;
+    const wanted = base + sign * (STEPS[found.unit] ?? STEPS["-"]);
+    this.field.value = Math.min(Math.max(wanted, found.low ?? -Infinity), found.high ?? Infinity).toFixed(3);
+    this.words.textContent = "Preview shows what that does.";
+  }
+
+  /** @param {boolean} apply */
+  #ask(apply) {
+    const found = this.#chosen(), value = typedNumber(this.field);
+    if (!found) return;
+    if (!Number.isFinite(value)) {
+      this.words.textContent = `${this.field.value || "Nothing"} is no number: type one such as ${found.value?.toFixed(3)}`;
+      return;
+    }
+    this.page.dropGhost();
+    const message = {t: "vary", set: {[found.name]: value}, apply};
+    if (apply) {
+      this.ask(message, "Varying the hull …");
+      this.page.applying = this.asked;
+    } else this.askGhost(message, "Making the ghost …");
+  }
+
+  render() {}
+
+  /** @param {{id: number, value: any}} message */
+  answer(message) {
+    const name = this.choice.value;
+    if (message.id === this.limits) return this.onLimits?.(message.value.find((/** @type {Parameter} */ each) => each.name === name));
+    if (message.id !== this.asked || !message.value) return;
+    if (this.asked !== this.ghost) {
+      this.found = message.value.filter((/** @type {Parameter} */ each) => each.value !== null && each.reason === null);
+      this.choice.replaceChildren(...this.found.map((each) => new Option(`${each.name.replace(/_deg$/, "").replaceAll("_", " ")}${each.unit === "-" ? "" : `, ${each.unit}`}`, each.name)));
+      if (this.found.some((each) => each.name === name)) this.choice.value = name;
+      this.form.hidden = false;
+      this.#choose();
+      this.words.textContent = `${this.found.length} parameters can be varied.`;
+      return;
+    }
+    const {volume, lcb} = message.value;
+    this.words.textContent = `Ghost: ${costWords(message.value, this.page.store)}: V ${volume.toFixed(2)} m³, LCB ${lcb.toFixed(3)} m. Nothing is changed yet.`;
+  }
+
+  /** @param {{id: number}} message */
+  done(message) {
+    if (!message.id || message.id !== this.asked) return;
+    this.all();
+  }
+}
