@@ -11,6 +11,7 @@ import ctypes
 import threading
 from collections import deque
 from collections.abc import Callable
+from functools import partial
 
 import attrs
 
@@ -32,18 +33,21 @@ class _Job:
 class CopyReaders:
     """A few threads, and what waits for them; of each owner and kind there is one job at most.
 
+    Each job has a thread of its own, so that what ends it can come at no other place; those that
+    wait for jobs, and hold what all share, are never ended so.
+
     Parameters
     ----------
     name : str
         Of the threads.
     count : int
-        How many there are; each is started when it is first needed.
+        How many jobs run at once at most.
     """
 
     def __init__(self, name: str, count: int) -> None:
         self._name, self._count = name, count
         self._waiting = deque[_Job]()
-        self._running = dict[int, _Job]()
+        self._running = list[tuple[threading.Thread, _Job]]()
         self._threads = list[threading.Thread]()
         self._awake = threading.Condition()
         self._open = True
@@ -55,12 +59,9 @@ class CopyReaders:
             if not self._open:
                 return
             self._waiting.append(_Job(owner, kind, number, act))
-            self._threads = [each for each in self._threads if each.is_alive()]
             idle = len(self._threads) - len(self._running)
             if idle < len(self._waiting) and len(self._threads) < self._count:
-                thread = threading.Thread(target=self._work, name=self._name, daemon=True)
-                self._threads.append(thread)
-                thread.start()
+                self._threads.append(self._begin(self._serve))
             self._awake.notify()
 
     def stop(self, owner: object, number: int | None = None) -> None:
@@ -77,26 +78,32 @@ class CopyReaders:
 
     def _end(self, wanted: Callable[[_Job], bool]) -> None:
         self._waiting = deque(each for each in self._waiting if not wanted(each))
-        for thread, job in self._running.items():
-            if wanted(job):
+        for thread, job in self._running:
+            if wanted(job) and thread.ident is not None and thread.is_alive():
                 ctypes.pythonapi.PyThreadState_SetAsyncExc(
-                    ctypes.c_ulong(thread), ctypes.py_object(_Stopped)
+                    ctypes.c_ulong(thread.ident), ctypes.py_object(_Stopped)
                 )
 
-    def _work(self) -> None:
-        me, on = threading.get_ident(), True
-        while on:
-            # It may also come when the job is just done.
-            with contextlib.suppress(_Stopped):
-                on = self._serve(me)
+    def _begin(self, act: Callable[[], None]) -> threading.Thread:
+        thread = threading.Thread(target=act, name=self._name, daemon=True)
+        thread.start()
+        return thread
 
-    def _serve(self, me: int) -> bool:
-        """Do the next job; tells whether there may be more."""
-        with self._awake:
-            self._running.pop(me, None)
-            self._awake.wait_for(lambda: self._waiting or not self._open)
-            if not self._open:
-                return False
-            job = self._running[me] = self._waiting.popleft()
+    def _serve(self) -> None:
+        """Do job after job, as long as there may be more."""
+        while True:
+            with self._awake:
+                self._awake.wait_for(lambda: self._waiting or not self._open)
+                if not self._open:
+                    return
+                job = self._waiting.popleft()
+                mine = self._begin(partial(_do, job)), job
+                self._running.append(mine)
+            mine[0].join()
+            with self._awake:
+                self._running.remove(mine)
+
+
+def _do(job: _Job) -> None:
+    with contextlib.suppress(_Stopped):
         job.act()
-        return True
