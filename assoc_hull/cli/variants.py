@@ -226,7 +226,7 @@ def _variation_facts(
         "targets": report.targets, "rounds": report.rounds, "regions": report.regions,
         "drivers": report.drivers, "added": report.added, "fingerprint": fingerprint,
         "refused": False, "saved": saved, "script": report.script, "aim": report.aim,
-        "faired": _faired(report.faired),
+        "faired": _faired(report.faired), "notes": report.notes,
     }  # fmt: skip
 
 
@@ -238,6 +238,7 @@ def _variation_words(report: VariationReport) -> Iterator[str]:
         yield from (f"  {each}" for each in str(report.aim).splitlines())
     if report.faired is not None:
         yield f"  {report.faired}"
+    yield from (f"  {each}" for each in report.notes)
 
 
 def _ship(arguments: argparse.Namespace, script: dict[str, Any], hull: Hull) -> str | None:

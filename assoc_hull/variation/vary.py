@@ -31,6 +31,7 @@ from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.field_layout import Layout, Share
+from assoc_hull.variation.parameters.hull_and_end_measures import drawn_breadth
 from assoc_hull.variation.parameters.paper_regions import regions_of
 from assoc_hull.variation.parameters.parameter_fields import shift_terminals
 from assoc_hull.variation.parameters.parameter_measures import measure_all
@@ -362,7 +363,8 @@ def vary_document(
             parent, edit.state.rows.xyz[edit.state.live("rows")], ask.values, ask.layout
         )
         found, fairness = choose_plan(edit, room, ask)
-        now = present_values(measure_all(edit.state), ask.layout)
+        measured = measure_all(edit.state)
+        now = present_values(measured, ask.layout)
         reached = {
             name: value if CATALOGUE[name].amplitude else now[name]
             for name, value in ask.values.items()
@@ -374,6 +376,7 @@ def vary_document(
             edit.varied_before = values_before(document)
         bare = _without_tunnels(edit.state, ask)
         left = left_values(document, ask, now)
+        broad = drawn_breadth(measured.anchors["breadth"]) if "breadth" in found.values else ()
         beyond = folds_outside(found.carry.map, room.box)
         along = went_along(levels, edit.state)
         if ship is not None and edit.changes:
@@ -390,7 +393,7 @@ def vary_document(
     carried, whole = found.carry.carried, found.carry.map
     notes = (
         *shifted_without_body(parent, found.values), *beside,
-        *composed_of(len(carried), ask.layout), *beyond, *along,
+        *composed_of(len(carried), ask.layout), *beyond, *along, *broad,
         *also_changed(was, now, found.values), *bare, *left, *unfair_lines(fairness),
     )  # fmt: skip
     drivers = [each.applied.drivers for each in carried]

@@ -18,7 +18,7 @@ from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, freeze
 from assoc_hull.geometry.polylines.operations import runs_where
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.evaluation import derivative, sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.io.lines.raw_lines import plane_name
@@ -493,20 +493,33 @@ def lines_of_table(
     ]
     if profile is not None:
         found.append(profile)
-    for points in _deck(table, profile):
-        level = float(points[0, 2]) if np.ptp(points[:, 2]) < factor * _SAME else None
-        plane = None if level is None else ((0.0, 0.0, 1.0), level)
-        found.append(
-            LineSource.make(
-                "boundary",
-                "deck edge",
-                points,
-                plane=plane,
-                boundary=BoundaryKind.END,
-                tolerance=near,
-            )
-        )
+    found += [_deck_edge(table, points, near) for points in _deck(table, profile)]
     return found
+
+
+def _deck_edge(table: OffsetTable, points: FloatArray, near: float) -> LineSource:
+    """Make the deck edge, which runs straight in plan along its greatest breadth as waterlines do.
+
+    Sheer or not: it is tangent there to the heights of the smooth curve through its points.
+    """
+    factor = length_factor(table.length)
+    unit = 2.0 * float(table.rounding[-1]) * (1.0 + 1e-6)
+    runs = straight_runs_of(points[:, 0], points[:, 1], unit, factor * _APART)
+    smooth = loft(CurveData.single(points))
+    at = intersect_planes(smooth, np.eye(3)[0], runs.place[~runs.given])
+    first = np.unique(at.plane, return_index=True)[1]  # a curve may meet a plane again
+    knot, places = np.zeros(len(runs.y)), np.zeros((len(runs.y), 3))
+    knot[runs.given], places[runs.given] = smooth.knot, points
+    knot[~runs.given], places[~runs.given] = at.t[first], at.xyz[first]
+    places[:, 1] = runs.y
+    way = derivative(smooth, np.zeros(len(knot), np.int64), knot) * (1.0, 0.0, 1.0)
+    level = float(points[0, 2]) if np.ptp(points[:, 2]) < factor * _SAME else None
+    return LineSource.make(
+        "boundary", "deck edge", places,
+        plane=None if level is None else ((0.0, 0.0, 1.0), level), boundary=BoundaryKind.END,
+        kind=np.where(runs.tangent, int(PointKind.TANGENT), int(PointKind.SMOOTH)).tolist(),
+        direction=np.where(runs.tangent[:, None], way, 0.0), tolerance=near,
+    )  # fmt: skip
 
 
 def _straightened(

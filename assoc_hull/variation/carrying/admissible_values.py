@@ -26,6 +26,7 @@ from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.compose_map import compose_map, conflicts, refuse_clashes
 from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.parameters.hull_and_end_measures import drawn_breadth
 from assoc_hull.variation.parameters.measurement import Measures
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import Parent, parent_of
@@ -399,6 +400,8 @@ def _listed(name: str, found: Measures, room: AdmissibleValues, limited: bool) -
             low, high = (each if math.isfinite(each) else None for each in room.interval(name))
         except BadInputError as error:
             reason = f"cannot be varied: {error.what.partition(': ')[2] or error.what}"
+    beside = drawn_breadth(found.anchors[name]) if name == "breadth" else ()
     return ListedParameter(
-        name, entry.unit, entry.meaning, value, low, high, conflicts(name, room.layout), reason
-    )
+        name, entry.unit, "; ".join((entry.meaning, *beside)), value, low, high,
+        conflicts(name, room.layout), reason,
+    )  # fmt: skip
