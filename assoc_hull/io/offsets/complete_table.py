@@ -578,12 +578,13 @@ def net_from_table(
         beyond = _drawn_ends(table, at_full_size(table), stern, stem) if straight else ()
         return state, attrs.evolve(report, notes=(*beyond, *report.notes))
     except (BadInputError, CoincidentPointsError, TooFewPointsError) as error:
-        # Too few: as of a counter that reaches the deck alone at her last station.
         ends = _known_ends(table)
         state, report = net_of_lines(table, ship, tolerances, ends)
         profile = _profile_of(state)
         left = "flats" if profile is not None else "profile, ends and flats"
         note = f"{left} are left open: {_in_its_size(table, error)}"
+        if profile is None and "keel" not in note:
+            note += "; a column 'keel' that goes up to the deck at both ends makes the profile"
         about = list[str]()
         if profile is not None:
             about += [] if ends is None else _drawn_ends(table, table, *ends, profile)
@@ -683,7 +684,9 @@ def _in_its_size(
         _completion(table)
     except BadInputError as own:
         return f"{own.what}; {own.remedy}"
-    return f"{error.what}; {error.remedy}" if isinstance(error, BadInputError) else str(error)
+    if isinstance(error, BadInputError):
+        return f"{error.what}; {error.remedy}"
+    return f"{error}; give that line one more number, or leave it out"
 
 
 def _known_ends(table: OffsetTable) -> tuple[FloatArray, FloatArray] | None:
