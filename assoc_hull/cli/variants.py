@@ -170,6 +170,10 @@ def add_vary(commands: Commands) -> None:
         "sign; how far at most, m (without a number: 0.02)",
     )  # fmt: skip
     parser.add_argument(
+        "--accept", action="store_true",
+        help="take a hull as well whose lines come to bend as no one would have it",
+    )  # fmt: skip
+    parser.add_argument(
         "--list",
         action="store_true",
         help="show present values and what may be asked; write nothing",
@@ -288,6 +292,8 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
         value = getattr(arguments, key)
         if value is not None:
             script[key] = value
+    if arguments.accept:
+        script["accept"] = True
     return script
 
 

@@ -19,7 +19,7 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.mapped_planes import IN_PLANE
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.aiming.report import AimReport
@@ -120,12 +120,49 @@ def unfair_lines(fairness: FairnessComparison) -> tuple[str, ...]:
     """Give a note on the lines that have a kink after a variation; none if there is none."""
     told = [
         f"{line.name} ({line.comb_ratio:.3g} times the parent's, {line.shape_ratio:.3g} at the "
-        "size it had)" for line in fairness.changed if line.comb_ratio > KINK
+        "size it had)" for line, times in fairness.unfairness if times > KINK
     ]  # fmt: skip
     if not told:
         return ()
     added = f"{fairness.added} changes of curvature sign added in all"
     return (f"lines less fair than those of the parent by their combs: {', '.join(told)}; {added}",)
+
+
+_BEYOND = 100.0
+"""A comb that becomes so many times sharper is of a hull that no one would take: ten times is a
+kink, and a line that folds nearly has hundreds."""
+
+_NAMED = 3
+"""So many lines are named."""
+
+
+def _refuse_unfair(
+    edit: Transaction, ask: VariationRequest, room: AdmissibleValues, fairness: FairnessComparison
+) -> None:
+    """Refuse a hull that no one would take for its lines, with the values that would be fair.
+
+    A border alone, as a stem that is to be raked, may come to bend as it has not.
+    """
+    found = sorted(fairness.unfairness, key=lambda each: -each[1])
+    beyond = [
+        (line.name, times) for line, times in found if times > _BEYOND and not line.before.border
+    ]
+    if not beyond:
+        return
+    lines = ", ".join(f"{name} {times:.3g} times" for name, times in beyond[:_NAMED])
+    if len(beyond) > _NAMED:
+        lines += f" and {len(beyond) - _NAMED} more lines"
+    edit.take_back()  # what may be asked for is sought on the parent
+    remedies = []
+    for name, value in ask.values.items():
+        low, high = room.fair_interval(name)
+        if not low <= value <= high:
+            remedies.append(f"ask for a {name} {room.fair_words(name)}, where lines stay fair")
+    remedies = remedies or ["ask for less"]
+    raise RefusedEditError(ask.name, (
+        f"lines would bend more sharply than they do, by their combs: {lines}; "
+        f"{' and '.join(remedies)}, or take the hull as it is with accept=True (--accept)",
+    ))  # fmt: skip
 
 
 def shifted_without_body(
@@ -365,6 +402,8 @@ def vary_document(
         found, fairness = choose_plan(edit, room, ask)
         measured = measure_all(edit.state)
         now = present_values(measured, ask.layout)
+        if not ask.accept:
+            _refuse_unfair(edit, ask, room, fairness)
         reached = {
             name: value if CATALOGUE[name].amplitude else now[name]
             for name, value in ask.values.items()
