@@ -68,7 +68,7 @@ def test_lines_that_end_on_no_profile_are_told_how_she_gets_one(tmp_path: Path) 
     assert "profile" not in hull.lines
     assert hull.adoption is not None
     [note] = [note for note in hull.adoption.notes if "left open" in note]
-    assert "a column 'keel' that goes up to the deck at both ends" in note
+    assert note.endswith("or a column keel")
     with pytest.raises(OpenNetError) as caught:
         hull.mesh()
     assert "by a column 'keel' that goes up to the deck at both ends" in str(caught.value)
@@ -77,6 +77,22 @@ def test_lines_that_end_on_no_profile_are_told_how_she_gets_one(tmp_path: Path) 
     fore = "\n20.3,,,,,,,,4\n"
     whole = coaster(tmp_path, after, HEAD.replace("wl_4\n", "wl_4,keel\n"), "\n".join(rows) + fore)
     assert whole.mesh().volume > 1000.0
+
+
+def test_a_sheer_that_is_not_drawn_is_told_with_what_to_do(tmp_path: Path) -> None:
+    """The deck edge of a table that is completed is level; the note says so, and the way out."""
+    head = HEAD.replace("wl_4\n", "wl_4,sheer,y_deck\n")
+    body = "".join(f"\n{row},{4.2 + 0.03 * (k - 7) ** 2:.2f},{row.split(',')[-1]}"
+                   for k, row in enumerate(BODY.split()))  # fmt: skip
+    hull = coaster(tmp_path, "0,,,,,,0,1.95,6.1,2.2", head, body + "\n")
+    assert hull.adoption is not None
+    [note] = [note for note in hull.adoption.notes if note.startswith("assumed: deck edge:")]
+    assert "z = 4 m: its deck at 4.2 to 6.1 m is not used" in note
+    sheered = hull.vary(set={"sheer_fore": 0.5, "sheer_aft": 0.3}).hull
+    assert sheered.measure()["sheer_fore"] == pytest.approx(0.5, abs=1e-6)
+    plain = coaster(tmp_path, "0,,,,,,0,1.95")
+    assert plain.adoption is not None
+    assert not [note for note in plain.adoption.notes if note.startswith("assumed: deck edge:")]
 
 
 def test_a_coaster_is_drawn_no_broader_than_she_is(tmp_path: Path) -> None:
