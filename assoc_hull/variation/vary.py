@@ -25,7 +25,7 @@ from assoc_hull.model.tables import HullState
 from assoc_hull.variation.aiming.report import AimReport
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.certificate.fold_check import Certificate, fold_outside
-from assoc_hull.variation.comparing.line_fairness import FairnessComparison
+from assoc_hull.variation.comparing.line_fairness import FairnessChange, FairnessComparison
 from assoc_hull.variation.earlier_values import left_values, values_before, values_of_variation
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
@@ -119,13 +119,19 @@ def also_changed(
 def unfair_lines(fairness: FairnessComparison) -> tuple[str, ...]:
     """Give a note on the lines that have a kink after a variation; none if there is none."""
     told = [
-        f"{line.name} ({line.comb_ratio:.3g} times the parent's, {line.shape_ratio:.3g} at the "
-        "size it had)" for line, times in fairness.unfairness if times > KINK
-    ]  # fmt: skip
+        f"{line.name} ({_sharper(line)})" for line, times in fairness.unfairness if times > KINK
+    ]
     if not told:
         return ()
     added = f"{fairness.added} changes of curvature sign added in all"
     return (f"lines less fair than those of the parent by their combs: {', '.join(told)}; {added}",)
+
+
+def _sharper(line: FairnessChange) -> str:
+    """Say by how much a comb integral has risen; of a line that was straight, to what."""
+    if not line.before.comb:
+        return f"straight before, now {line.after.comb:.3g} 1/m3"
+    return f"{line.comb_ratio:.3g} times the parent's, {line.shape_ratio:.3g} at the size it had"
 
 
 _BEYOND = 100.0
