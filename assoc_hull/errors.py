@@ -486,6 +486,8 @@ class FoldError(AssocHullError, ValueError):
     interval, unit : (float, float) or None, {"m", "deg"}
         Between these values the named parameter at fault may be asked for alone; infinite where
         nothing ends it.
+    fair : (float, float) or None, {"m", "deg"}
+        Between these of them lines stay about as fair as they are.
     part : float or None
         So much of all changes that were asked for together is allowed, if each alone is.
     """
@@ -502,12 +504,13 @@ class FoldError(AssocHullError, ValueError):
     interval: tuple[float, float] | None = None
     unit: str = "m"
     part: float | None = None
+    fair: tuple[float, float] | None = None
 
     def __str__(self) -> str:
         x, y, z = self.witness
         at = f"x={x:.3f}" + (f" y={y:.3f}" if y else "") + f" z={z:.3f}"
         text = f"variation: '{self.field or self.layer}' {self._verdict()} at {at}"
-        text += f" ({self.minor}={self.least:.3f})"
+        text += f" ({_COME_OUT[self.minor].format(f'{self.least:.3f}')})"
         if self.between:
             walls = " and ".join(f"'{name}' ({height:.3f})" for name, height in self.between)
             text += f" {'between' if len(self.between) > 1 else 'beyond'} {walls}"
@@ -523,13 +526,28 @@ class FoldError(AssocHullError, ValueError):
         if self.part is not None:
             return f"not beside the others asked for: admissible {100.0 * self.part:.3g} % of each"
         if self.interval is not None:
-            # to three decimals, inward: a value that the message admits must be admitted
-            low, high = (
-                inward(1e3 * end) / 1e3 if math.isfinite(end) else end
-                for inward, end in zip((math.ceil, math.floor), self.interval, strict=True)
-            )
-            return f"admissible {self.field or self.layer} {_span(low, high, self.unit)}"
+            told = f"admissible {self.field or self.layer} {self._within(self.interval)}"
+            if self.fair is None or self.fair == self.interval:
+                return told
+            return f"{told}, with fair lines {self._within(self.fair)}"
         return "ask for less, or let the field reach further"
+
+    def _within(self, ends: tuple[float, float]) -> str:
+        # to three decimals, inward: a value that the message admits must be admitted
+        low, high = (
+            inward(1e3 * end) / 1e3 if math.isfinite(end) else end
+            for inward, end in zip((math.ceil, math.floor), ends, strict=True)
+        )
+        return _span(low, high, self.unit)
+
+
+_COME_OUT = {
+    "X_x": "places along the ship come out {} times as far apart",
+    "Y_y": "half-breadths come out {} times as far apart",
+    "Z_z": "heights come out {} times as far apart",
+    "D": "areas in profile come out {} times as large",
+}
+"""What a minor of a map tells of the hull, by its name."""
 
 
 @attrs.define(slots=False, eq=False)

@@ -55,7 +55,7 @@ def _moves(each: ListedParameter, parent: Parent) -> str:
     reaches = ", ".join(
         f"`{name}={getattr(Layout(), name)}`" for name in REACHES if name in layout.told
     )
-    _, now, unit, low, high, _ = each.words
+    _, now, unit, low, high, *_ = each.words
     ends = ["" if end == "any" else end for end in (low, high)]
     where = "; ".join(dict.fromkeys(map(_where, regions)))
     return _row(

@@ -58,6 +58,18 @@ class _Parser(argparse.ArgumentParser):
             }  # fmt: skip
         return found, rest
 
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """Name the choices that are nearest to a word that is none."""
+        try:
+            super()._check_value(action, value)
+        except argparse.ArgumentError as error:
+            near = difflib.get_close_matches(str(value), list(map(str, action.choices or ())), 3)
+            if not near:
+                raise
+            meant = " or ".join(f"'{each}'" for each in near)
+            said = f"did you mean {meant}? {error.message}"
+            raise argparse.ArgumentError(action, said) from None
+
     def _meant(self, rest: Sequence[str]) -> str:
         """Say which option a word that was not known stands for, perhaps."""
         unknown = [each.partition("=")[0] for each in rest if each.startswith("-")]

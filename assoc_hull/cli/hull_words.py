@@ -194,6 +194,7 @@ def hull_words(hull: Hull, *, names: bool = False) -> str:
     lines = [
         f"{ship.name}: length {ship.length:.3f} m, breadth {ship.breadth:.3f} m, "
         f"depth {ship.depth:.3f} m, draught {ship.draught:.3f} m, deck {ship.deck}",
+        *(wrap_text("breadth", [told]) for told in _drawn_breadth(hull)),
         wrap_text("lines", (f"{len(g['lines'])} {name}" for name, g in facts["groups"].items())),
         f"  crossings    {sum(roles.values())}: {roles.get('shared', 0)} shared, {driven} driven, "
         f"{roles.get('watched', 0)} watched",
@@ -208,6 +209,13 @@ def hull_words(hull: Hull, *, names: bool = False) -> str:
     if names:
         lines += [wrap_text(name, group["lines"]) for name, group in facts["groups"].items()]
     return "\n".join(lines)
+
+
+def _drawn_breadth(hull: Hull) -> tuple[str, ...]:
+    """Say where lines are not as broad as the ship."""
+    from assoc_hull.variation.parameters.hull_and_end_measures import drawn_breadth
+
+    return drawn_breadth(hull.measure(only=["breadth"]).anchors["breadth"])
 
 
 def import_words(name: str, report: ImportReport) -> str:

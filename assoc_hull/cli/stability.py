@@ -119,7 +119,10 @@ def _check(arguments: argparse.Namespace) -> None:
         check_target(arguments.plot, PICTURE_ENDINGS)
     # KN is about the keel: cross curves need no centre of gravity.
     if arguments.kg is None and not arguments.cross:
-        raise BadInputError("--kg is not given", _CALL, "give the centre of gravity, or --cross")
+        raise BadInputError(
+            "--kg is not given", _CALL,
+            "give the centre of gravity by --kg, m above the base line, or ask for --cross",
+        )  # fmt: skip
     # --flooding may be given again, so it is an empty list if not given: hence `or None`.
     wrong: dict[str, Any] = {}
     if arguments.cross:

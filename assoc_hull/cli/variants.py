@@ -170,6 +170,10 @@ def add_vary(commands: Commands) -> None:
         "sign; how far at most, m (without a number: 0.02)",
     )  # fmt: skip
     parser.add_argument(
+        "--accept", action="store_true",
+        help="take a hull as well whose lines come to bend as no one would have it",
+    )  # fmt: skip
+    parser.add_argument(
         "--list",
         action="store_true",
         help="show present values and what may be asked; write nothing",
@@ -226,7 +230,7 @@ def _variation_facts(
         "targets": report.targets, "rounds": report.rounds, "regions": report.regions,
         "drivers": report.drivers, "added": report.added, "fingerprint": fingerprint,
         "refused": False, "saved": saved, "script": report.script, "aim": report.aim,
-        "faired": _faired(report.faired),
+        "faired": _faired(report.faired), "notes": report.notes,
     }  # fmt: skip
 
 
@@ -238,6 +242,7 @@ def _variation_words(report: VariationReport) -> Iterator[str]:
         yield from (f"  {each}" for each in str(report.aim).splitlines())
     if report.faired is not None:
         yield f"  {report.faired}"
+    yield from (f"  {each}" for each in report.notes)
 
 
 def _ship(arguments: argparse.Namespace, script: dict[str, Any], hull: Hull) -> str | None:
@@ -287,6 +292,8 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
         value = getattr(arguments, key)
         if value is not None:
             script[key] = value
+    if arguments.accept:
+        script["accept"] = True
     return script
 
 

@@ -2193,6 +2193,7 @@ features
         planes: Planes = "follow",
         tolerance: float = 2e-3,
         fair: float | bool = False,
+        accept: bool = False,
         name: str | None = None,
         ship: str | None = None,
         in_place: bool = False,
@@ -2249,6 +2250,9 @@ features
             The profile and other boundary curves, flats, features and placed points stay where the
             map takes them; values and targets are met as without. `VariationReport.faired` tells
             what was done, and which lines have more changes still.
+        accept : bool
+            Take a hull as well whose lines have come to bend a hundred times as sharply, as no
+            designer would; it is refused otherwise.
         name : str
             Of the step in the history; by default it tells the values.
         ship : str
@@ -2285,7 +2289,8 @@ features
             The parent has not what is asked for; two parameters contradict each other. The hull is
             unchanged, whatever the error.
         RefusedEditError
-            A line would fold or lose its order. The hull is unchanged.
+            A line would fold or lose its order, or bend as no one would have it (`accept`). The
+            hull is unchanged.
 
         Notes
         -----
@@ -2311,7 +2316,7 @@ features
         ask = VariationRequest.of(
             set, reach=reach, free=free, bounds=bounds, exact=exact, layers=layers, layout=layout,
             drivers=drivers, stations=stations, planes=planes, tolerance=tolerance, fair=fair,
-            name=name,
+            accept=accept, name=name,
         )  # fmt: skip
         measure_parent(state_of(self, "in vary"))
         varied = _to_change(self, "vary", in_place=in_place)

@@ -129,6 +129,6 @@ def describe_parameters(hull: Hull, of: str | None = None) -> list[dict[str, Any
     """Give the named parameters of a hull: value, unit, or the reason for none; limits of one."""
     return [
         {"name": each.name, "unit": each.unit, "meaning": each.meaning, "value": each.value,
-         "low": each.low, "high": each.high, "reason": each.reason}
+         "low": each.fair_low, "high": each.fair_high, "reason": each.reason}
         for each in list_parameters(hull.state, limits=() if of is None else (of,))
     ]  # fmt: skip

@@ -298,7 +298,7 @@ def _open(pair: tuple[float, float]) -> list[float | None]:
 # {"version": 1, "set": {"shaft_height": 6.0, "bossing_radius": 1.0},
 #  "layout": {"stern": 0.3}, "drivers": ["sections", "buttocks"], "stations": "number",
 #  "planes": "follow", "layers": [[{"hat": {...}}]], "tolerance": 0.002, "fair": true,
-#  "name": "larger screw"}
+#  "accept": false, "name": "larger screw"}
 #
 # No key must be there but ``set``, ``reach`` or ``layers``; ``version`` is that of this form.
 
@@ -312,7 +312,7 @@ VERSION = 1
 """Of the form of scripts."""
 
 _KEYS = ("version", "set", "reach", "free", "bounds", "exact", "layers", "layout", "drivers",
-         "stations", "planes", "tolerance", "fair", "name")  # fmt: skip
+         "stations", "planes", "tolerance", "fair", "accept", "name")  # fmt: skip
 _SPOKEN = {each.short: each.name for each in CATALOGUE.values()} | {
     "pmb_start": "parallel_body_start", "pmb_end": "parallel_body_end", "LPP": "length",
 }  # fmt: skip
@@ -348,6 +348,8 @@ class VariationRequest:
     fair : float or bool, m
         How far points that have moved may move once more, so that lines stay as fair as they were;
         True: as far as is usual, False: not at all.
+    accept : bool
+        Whether a hull is taken whose lines bend as no one would have it.
     """
 
     values: Mapping[str, float]
@@ -361,6 +363,7 @@ class VariationRequest:
     given: tuple[object, ...] | None = ()
     reach: TargetRequest | None = None
     fair: float | bool = False
+    accept: bool = False
 
     @classmethod
     def of(
@@ -378,6 +381,7 @@ class VariationRequest:
         planes: str = "follow",
         tolerance: float = TOLERANCE,
         fair: float | bool = False,
+        accept: bool = False,
         name: str | None = None,
     ) -> VariationRequest:
         """Take what a designer gives.
@@ -405,6 +409,7 @@ class VariationRequest:
             title_of(found, aimed) if name is None else text(name, "the name", "in vary"),
             None if any(is_layer(each) for each in layers) else tuple(layers), aimed,
             fair if isinstance(fair, bool) else positive(fair, "fair", "in vary"),
+            flag(accept, "accept", "in vary"),
         )  # fmt: skip
 
 
@@ -442,7 +447,7 @@ def request_from_data(data: object) -> VariationRequest:
         layers=data.get("layers", ()), layout=data.get("layout"), drivers=data.get("drivers"),
         stations=data.get("stations", "number"), planes=data.get("planes", "follow"),
         tolerance=data.get("tolerance", TOLERANCE), fair=data.get("fair", False),
-        name=data.get("name"),
+        accept=data.get("accept", False), name=data.get("name"),
     )  # fmt: skip
 
 
@@ -602,6 +607,8 @@ def script_of(ask: VariationRequest) -> Mapping[str, Any] | None:
     found.update(stations=ask.stations, planes=ask.planes, tolerance=ask.tolerance, name=ask.name)
     if ask.fair:
         found["fair"] = ask.fair
+    if ask.accept:
+        found["accept"] = True
     return MappingProxyType(found)
 
 

@@ -19,18 +19,19 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.mapped_planes import IN_PLANE
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.aiming.report import AimReport
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.certificate.fold_check import Certificate, fold_outside
-from assoc_hull.variation.comparing.line_fairness import FairnessComparison
+from assoc_hull.variation.comparing.line_fairness import FairnessChange, FairnessComparison
 from assoc_hull.variation.earlier_values import left_values, values_before, values_of_variation
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.field_layout import Layout, Share
+from assoc_hull.variation.parameters.hull_and_end_measures import drawn_breadth
 from assoc_hull.variation.parameters.paper_regions import regions_of
 from assoc_hull.variation.parameters.parameter_fields import shift_terminals
 from assoc_hull.variation.parameters.parameter_measures import measure_all
@@ -118,13 +119,56 @@ def also_changed(
 def unfair_lines(fairness: FairnessComparison) -> tuple[str, ...]:
     """Give a note on the lines that have a kink after a variation; none if there is none."""
     told = [
-        f"{line.name} ({line.comb_ratio:.3g} times the parent's, {line.shape_ratio:.3g} at the "
-        "size it had)" for line in fairness.changed if line.comb_ratio > KINK
-    ]  # fmt: skip
+        f"{line.name} ({_sharper(line)})" for line, times in fairness.unfairness if times > KINK
+    ]
     if not told:
         return ()
     added = f"{fairness.added} changes of curvature sign added in all"
     return (f"lines less fair than those of the parent by their combs: {', '.join(told)}; {added}",)
+
+
+def _sharper(line: FairnessChange) -> str:
+    """Say by how much a comb integral has risen; of a line that was straight, to what."""
+    if not line.before.comb:
+        return f"straight before, now {line.after.comb:.3g} 1/m3"
+    return f"{line.comb_ratio:.3g} times the parent's, {line.shape_ratio:.3g} at the size it had"
+
+
+_BEYOND = 100.0
+"""A comb that becomes so many times sharper is of a hull that no one would take: ten times is a
+kink, and a line that folds nearly has hundreds."""
+
+_NAMED = 3
+"""So many lines are named."""
+
+
+def _refuse_unfair(
+    edit: Transaction, ask: VariationRequest, room: AdmissibleValues, fairness: FairnessComparison
+) -> None:
+    """Refuse a hull that no one would take for its lines, with the values that would be fair.
+
+    A border alone, as a stem that is to be raked, may come to bend as it has not.
+    """
+    found = sorted(fairness.unfairness, key=lambda each: -each[1])
+    beyond = [
+        (line.name, times) for line, times in found if times > _BEYOND and not line.before.border
+    ]
+    if not beyond:
+        return
+    lines = ", ".join(f"{name} {times:.3g} times" for name, times in beyond[:_NAMED])
+    if len(beyond) > _NAMED:
+        lines += f" and {len(beyond) - _NAMED} more lines"
+    edit.take_back()  # what may be asked for is sought on the parent
+    remedies = []
+    for name, value in ask.values.items():
+        low, high = room.fair_interval(name)
+        if not low <= value <= high:
+            remedies.append(f"ask for a {name} {room.fair_words(name)}, where lines stay fair")
+    remedies = remedies or ["ask for less"]
+    raise RefusedEditError(ask.name, (
+        f"lines would bend more sharply than they do, by their combs: {lines}; "
+        f"{' and '.join(remedies)}, or take the hull as it is with accept=True (--accept)",
+    ))  # fmt: skip
 
 
 def shifted_without_body(
@@ -362,7 +406,10 @@ def vary_document(
             parent, edit.state.rows.xyz[edit.state.live("rows")], ask.values, ask.layout
         )
         found, fairness = choose_plan(edit, room, ask)
-        now = present_values(measure_all(edit.state), ask.layout)
+        measured = measure_all(edit.state)
+        now = present_values(measured, ask.layout)
+        if not ask.accept:
+            _refuse_unfair(edit, ask, room, fairness)
         reached = {
             name: value if CATALOGUE[name].amplitude else now[name]
             for name, value in ask.values.items()
@@ -374,6 +421,7 @@ def vary_document(
             edit.varied_before = values_before(document)
         bare = _without_tunnels(edit.state, ask)
         left = left_values(document, ask, now)
+        broad = drawn_breadth(measured.anchors["breadth"]) if "breadth" in found.values else ()
         beyond = folds_outside(found.carry.map, room.box)
         along = went_along(levels, edit.state)
         if ship is not None and edit.changes:
@@ -390,7 +438,7 @@ def vary_document(
     carried, whole = found.carry.carried, found.carry.map
     notes = (
         *shifted_without_body(parent, found.values), *beside,
-        *composed_of(len(carried), ask.layout), *beyond, *along,
+        *composed_of(len(carried), ask.layout), *beyond, *along, *broad,
         *also_changed(was, now, found.values), *bare, *left, *unfair_lines(fairness),
     )  # fmt: skip
     drivers = [each.applied.drivers for each in carried]

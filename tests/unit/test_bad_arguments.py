@@ -584,7 +584,8 @@ FLOATING: dict[str, Given] = {
     "vary": {
         "set": {"breadth": 11.0}, "reach": None, "free": (), "bounds": None, "exact": True,
         "layers": (), "layout": None, "drivers": None, "stations": "number", "planes": "follow",
-        "tolerance": 2e-3, "fair": False, "name": None, "ship": None, "in_place": False,
+        "tolerance": 2e-3, "fair": False, "accept": False, "name": None, "ship": None,
+        "in_place": False,
     },
     "vary_by": {"script": {"set": {"breadth": 11.0}}, "ship": None, "in_place": False},
 }  # fmt: skip

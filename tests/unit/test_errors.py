@@ -137,17 +137,22 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
             (("shaft+r", 4.73), ("T", 10.8)),
             4.37,
             (0.9533, 9.0467),
+            fair=(3.21, 6.5),
         ),
         ValueError,
         [
-            "folds at x=5.625 z=7.813 (Z_z=-0.036) between 'shaft+r' (4.730) and 'T' (10.800), "
-            "node x=4.370; admissible shaft_height from 0.954 to 9.046 m"
+            "folds at x=5.625 z=7.813 (heights come out -0.036 times as far apart) between "
+            "'shaft+r' (4.730) and 'T' (10.800), node x=4.370; admissible shaft_height from 0.954 "
+            "to 9.046 m, with fair lines from 3.21 to 6.5 m"
         ],
     ),
     (
         errors.FoldError("thin", "D", 0.0312, 0.05, (5.6, 2.5, 7.8), "bilge_radius"),
         ValueError,
-        ["'bilge_radius' leaves less than 0.05 at x=5.600 y=2.500 z=7.800 (D=0.031); ask for less"],
+        [
+            "'bilge_radius' leaves less than 0.05 at x=5.600 y=2.500 z=7.800 (areas in profile "
+            "come out 0.031 times as large); ask for less"
+        ],
     ),
     (
         errors.TooFewFreeError(3, 2),

@@ -437,7 +437,8 @@ def _noise(state: HullState, problem: BattenProblem, asked: Noise) -> tuple[floa
     raise BadInputError(
         f"the noise is not known{look}",
         _WHERE,
-        'state it (noise=0.001 is 1 mm; in the shell --noise 1), or give "auto"',
+        "state it, noise=0.001 for 1 mm (in the shell --noise 1), or let it be estimated, "
+        'noise="auto" (in the shell --noise auto)',
     )
 
 

@@ -342,12 +342,12 @@ _NAMED = 6
 
 
 def greatest_note(state: HullState, noise: float) -> tuple[str, ...]:
-    """Tell which sections and waterlines are broader between their points than at any of them.
+    """Tell which lines are broader between their points than at any of them, the deck edge too.
 
     `noise` (m) is what the file leaves open anyway. Where the greatest breadth lies between unequal
     offsets, a smooth line passes both.
     """
-    passed = _between_points(state, ("sections", "waterlines"), 1, 1.0, noise)
+    passed = _between_points(state, ("sections", "waterlines", "boundary"), 1, 1.0, noise)
     return _told(
         passed, "broader between given points than at the greatest of them", "over {:.6g} m"
     )

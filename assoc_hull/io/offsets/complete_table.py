@@ -576,20 +576,35 @@ def net_from_table(
         # Of the shipped Series 60 the ends are explained where she is made.
         stern, stem = completion.stern, completion.stem
         beyond = _drawn_ends(table, at_full_size(table), stern, stem) if straight else ()
-        return state, attrs.evolve(report, notes=(*beyond, *report.notes))
+        return state, attrs.evolve(report, notes=(*beyond, *_level_deck(table), *report.notes))
     except (BadInputError, CoincidentPointsError, TooFewPointsError) as error:
-        # Too few: as of a counter that reaches the deck alone at her last station.
         ends = _known_ends(table)
         state, report = net_of_lines(table, ship, tolerances, ends)
         profile = _profile_of(state)
         left = "flats" if profile is not None else "profile, ends and flats"
         note = f"{left} are left open: {_in_its_size(table, error)}"
+        if profile is None and "column keel" not in note:
+            note += "; a column 'keel' that goes up to the deck at both ends makes the profile"
         about = list[str]()
         if profile is not None:
             about += [] if ends is None else _drawn_ends(table, table, *ends, profile)
             about += [note, *_open_ends(table, profile)]
         notes = (*(about or (note,)), *report.notes, *_coarse_keel(table))
         return state, attrs.evolve(report, notes=notes)
+
+
+def _level_deck(table: OffsetTable) -> Iterator[str]:
+    """Tell that the rules draw a level deck edge, where the table has one with heights."""
+    if table.deck_height is None or not np.isfinite(table.deck_height).any():
+        return
+    top, low, high = table.z[-1], np.nanmin(table.deck_height), np.nanmax(table.deck_height)
+    if max(high - top, top - low) > _UPRIGHT:
+        yield (
+            f"assumed: deck edge: the table: level at its highest waterline, z = {top:.6g} m: its "
+            f"deck at {low:.6g} to {high:.6g} m is not used, because the rules that close stem, "
+            "stern and flats know no sheer; set it with sheer_fore and sheer_aft (vary), or give "
+            "her as lines"
+        )
 
 
 def _profile_of(state: HullState) -> FloatArray | None:
@@ -683,7 +698,9 @@ def _in_its_size(
         _completion(table)
     except BadInputError as own:
         return f"{own.what}; {own.remedy}"
-    return f"{error.what}; {error.remedy}" if isinstance(error, BadInputError) else str(error)
+    if isinstance(error, BadInputError):
+        return f"{error.what}; {error.remedy}"
+    return f"{error}; give that line one more number, or leave it out"
 
 
 def _known_ends(table: OffsetTable) -> tuple[FloatArray, FloatArray] | None:

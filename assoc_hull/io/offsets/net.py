@@ -18,7 +18,7 @@ from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, freeze
 from assoc_hull.geometry.polylines.operations import runs_where
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.evaluation import derivative, sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.io.lines.raw_lines import plane_name
@@ -334,17 +334,13 @@ def _boundaries(table: OffsetTable, completion: Completion, flats: _FlatBorder) 
     return found
 
 
-def _line(
-    group: str,
-    name: str,
-    points: list[FloatArray],
-    tangents: FloatArray,
-    along: FloatArray,
-    axis: int,
-) -> LineSource:
-    """Put points in order along an axis, those on a flat's border marked as tangent points.
+def _in_order(
+    points: list[FloatArray], tangents: FloatArray, along: FloatArray, axis: int
+) -> tuple[FloatArray, list[int], FloatArray]:
+    """Put points in order along an axis, those on a flat's border as tangent points.
 
-    Of two within 0.1 mm one stays, the tangent point if there is one.
+    Gives the points, their kinds and directions. Of two within 0.1 mm one stays, the tangent point
+    if there is one.
     """
     xyz = np.array([*points, *tangents])
     tangent = np.arange(len(xyz)) >= len(points)
@@ -356,8 +352,7 @@ def _line(
     drop[:-1] |= near & tangent[1:] & ~tangent[:-1]
     xyz, tangent = xyz[~drop], tangent[~drop]
     kind = np.where(tangent, int(PointKind.TANGENT), int(PointKind.SMOOTH))
-    direction = np.where(tangent[:, None], along, 0.0)
-    return LineSource.make(group, name, xyz, kind=kind.tolist(), direction=direction)
+    return xyz, kind.tolist(), np.where(tangent[:, None], along, 0.0)
 
 
 def _closed_section(
@@ -372,7 +367,8 @@ def _closed_section(
     points = [np.array([x, b, h]) for b, h in zip(y[wet], z[wet], strict=True)]
     side = flats.meet(0, x)
     side = side[(side[:, 2] > 1e-6) & (side[:, 2] < z[-1] - 1e-6)]
-    line = _line("sections", name, points, side, np.array([0.0, 0.0, 1.0]), 2)
+    # One alone is a section, too, as of a counter that reaches the deck alone at her last station.
+    xyz, kinds, directions = _in_order(points, side, np.array([0.0, 0.0, 1.0]), 2)
     foot = [start]
     kind, direction = [int(PointKind.SMOOTH)], [np.zeros(3)]
     if y[0] > 0.0 and start[2] == 0.0 and completion.bottom is not None:
@@ -380,8 +376,8 @@ def _closed_section(
         kind.append(int(PointKind.TANGENT))
         direction.append(np.array([0.0, 1.0, 0.0]))
     return LineSource.make(
-        "sections", name, np.concatenate([foot, line.points]),
-        kind=kind + line.kind.tolist(), direction=np.concatenate([direction, line.direction]),
+        "sections", name, np.concatenate([foot, xyz]),
+        kind=kind + kinds, direction=np.concatenate([direction, directions]),
     )  # fmt: skip
 
 
@@ -416,7 +412,8 @@ def _closed_waterline(
     points += [np.array([completion.stern[j], 0.0, z]), np.array([completion.stem[j], 0.0, z])]
     side = flats.meet(2, z) if j < len(table.z) - 1 else _deck_flat(flats, z)
     name = f"WL {z / (table.draught or 1.0):g}"
-    return _line("waterlines", name, points, side, np.array([1.0, 0.0, 0.0]), 0)
+    xyz, kind, direction = _in_order(points, side, np.array([1.0, 0.0, 0.0]), 0)
+    return LineSource.make("waterlines", name, xyz, kind=kind, direction=direction)
 
 
 def _deck_flat(flats: _FlatBorder, z: float) -> FloatArray:
@@ -493,20 +490,33 @@ def lines_of_table(
     ]
     if profile is not None:
         found.append(profile)
-    for points in _deck(table, profile):
-        level = float(points[0, 2]) if np.ptp(points[:, 2]) < factor * _SAME else None
-        plane = None if level is None else ((0.0, 0.0, 1.0), level)
-        found.append(
-            LineSource.make(
-                "boundary",
-                "deck edge",
-                points,
-                plane=plane,
-                boundary=BoundaryKind.END,
-                tolerance=near,
-            )
-        )
+    found += [_deck_edge(table, points, near) for points in _deck(table, profile)]
     return found
+
+
+def _deck_edge(table: OffsetTable, points: FloatArray, near: float) -> LineSource:
+    """Make the deck edge, which runs straight in plan along its greatest breadth as waterlines do.
+
+    Sheer or not: it is tangent there to the heights of the smooth curve through its points.
+    """
+    factor = length_factor(table.length)
+    unit = 2.0 * float(table.rounding[-1]) * (1.0 + 1e-6)
+    runs = straight_runs_of(points[:, 0], points[:, 1], unit, factor * _APART)
+    smooth = loft(CurveData.single(points))
+    at = intersect_planes(smooth, np.eye(3)[0], runs.place[~runs.given])
+    first = np.unique(at.plane, return_index=True)[1]  # a curve may meet a plane again
+    knot, places = np.zeros(len(runs.y)), np.zeros((len(runs.y), 3))
+    knot[runs.given], places[runs.given] = smooth.knot, points
+    knot[~runs.given], places[~runs.given] = at.t[first], at.xyz[first]
+    places[:, 1] = runs.y
+    way = derivative(smooth, np.zeros(len(knot), np.int64), knot) * (1.0, 0.0, 1.0)
+    level = float(points[0, 2]) if np.ptp(points[:, 2]) < factor * _SAME else None
+    return LineSource.make(
+        "boundary", "deck edge", places,
+        plane=None if level is None else ((0.0, 0.0, 1.0), level), boundary=BoundaryKind.END,
+        kind=np.where(runs.tangent, int(PointKind.TANGENT), int(PointKind.SMOOTH)).tolist(),
+        direction=np.where(runs.tangent[:, None], way, 0.0), tolerance=near,
+    )  # fmt: skip
 
 
 def _straightened(

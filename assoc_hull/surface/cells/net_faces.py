@@ -58,8 +58,7 @@ def check_lines(graph: NetGraph) -> None:
         )  # fmt: skip
     if len(graph.loose):
         raise OpenNetError(
-            "lines end on no other line", _ends(graph.net, graph.loose),
-            "draw the line that they end on, or lead them to one",
+            "lines end on no other line", _ends(graph.net, graph.loose), _where_to_end(graph.net),
         )  # fmt: skip
     part = merge_linked(len(graph.place), graph.edge)
     if (part != part[0]).any():
@@ -70,6 +69,16 @@ def check_lines(graph: NetGraph) -> None:
             tuple(graph.net.name[c] for c in lost.tolist()),
             "draw lines that cross both, or leave these out",
         )  # fmt: skip
+
+
+def _where_to_end(net: CurveNet) -> str:
+    """Say what to do about lines that end on no other line."""
+    if (net.end & net.centre).any():
+        return "draw the line that they end on, or lead them to one"
+    return (
+        "the hull has no profile to end on: import her once more with one, of a table by a column "
+        "'keel' that goes up to the deck at both ends, of lines by a curve called 'profile'"
+    )
 
 
 def check_faces(graph: NetGraph, start: IntArray, member: IntArray) -> None:

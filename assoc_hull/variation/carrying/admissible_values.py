@@ -21,16 +21,19 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.certificate.admissible_amplitudes import admissible_amplitudes
 from assoc_hull.variation.certificate.fold_check import Certificate, certify
+from assoc_hull.variation.comparing.line_fairness import ImagedLines
 from assoc_hull.variation.features.redrawn_features import HullFeatures, redraw_features
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.compose_map import compose_map, conflicts, refuse_clashes
 from assoc_hull.variation.parameters.field_layout import Layout
+from assoc_hull.variation.parameters.hull_and_end_measures import drawn_breadth
 from assoc_hull.variation.parameters.measurement import Measures
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import Parent, parent_of
 from assoc_hull.variation.parameters.value_limits import (
     admissible_interval,
+    fair_end,
     hull_box,
     present_values,
     value_bounds,
@@ -97,6 +100,7 @@ class AdmissibleValues:
     layout: Layout
     box: FloatArray
     _found: dict[str, tuple[float, float]] = attrs.field(factory=dict, init=False, repr=False)
+    _fair: dict[str, tuple[float, float]] = attrs.field(factory=dict, init=False, repr=False)
 
     @classmethod
     def of(cls, state: HullState, layout: Layout, tolerance: float) -> AdmissibleValues:
@@ -132,6 +136,35 @@ class AdmissibleValues:
             rule = value_bounds(name, self.parent, now, self.layout)
             self._found[name] = admissible_interval(self._alone(name), now, rule, self.box)
         return self._found[name]
+
+    @cached_property
+    def images(self) -> ImagedLines:
+        """The lines, to be judged by their images."""
+        return ImagedLines.of(self.state)
+
+    def fair_interval(self, name: str) -> tuple[float, float]:
+        """Give between which values of a parameter, asked for alone, lines stay fair."""
+        if name not in self._fair:
+            now = self.present[name]
+
+            def sharper(value: float) -> float:
+                """Give the logarithm of how much sharper the sharpest comb becomes."""
+                try:
+                    vmap = compose_map(self.parent, {name: value}, self.layout)
+                except BadInputError:
+                    return math.inf
+                combs = (times for _, times in self.images.compared(vmap).unfairness)
+                return math.log(max(combs, default=1.0) or 1.0)
+
+            low, high = self.interval(name)
+            self._fair[name] = fair_end(sharper, now, low), fair_end(sharper, now, high)
+        return self._fair[name]
+
+    def fair_words(self, name: str) -> str:
+        """Give the ends of `fair_interval` in words, rounded inward."""
+        low, high = (each if math.isfinite(each) else None for each in self.fair_interval(name))
+        ends = f"from {_end(low, math.ceil)} to {_end(high, math.floor)} {CATALOGUE[name].unit}"
+        return ends.removesuffix(" -")
 
     def check(self, asked: Mapping[str, float]) -> None:
         """Refuse values that make no hull, or contradict each other.
@@ -238,7 +271,7 @@ class AdmissibleValues:
         # had
         alone = low <= asked[name] <= high
         return attrs.evolve(
-            error, interval=(low, high), unit=CATALOGUE[name].unit,
+            error, interval=(low, high), unit=CATALOGUE[name].unit, fair=self.fair_interval(name),
             part=self._part(asked) if alone and len(asked) > 1 else None,
         )  # fmt: skip
 
@@ -264,8 +297,9 @@ class AdmissibleValues:
 
     def _outside(self, name: str, value: float, why: str) -> OutOfRangeError:
         """Give the error for a value out of its interval."""
-        low, high = self.interval(name)
-        return OutOfRangeError(name, value, "in vary", why, low, high, CATALOGUE[name].unit)
+        (low, high), unit = self.interval(name), CATALOGUE[name].unit
+        remedy = f"for lines as fair as these, one {self.fair_words(name)}"
+        return OutOfRangeError(name, value, "in vary", why, low, high, unit, remedy)
 
 
 # --------------------------------------------------------------------------------------
@@ -274,11 +308,13 @@ class AdmissibleValues:
 _DIGITS = 4
 """Significant digits of the ends of intervals, which are rounded inward."""
 
-_HEAD = ("parameter", "present", "", "from", "to", "what it is")
+_HEAD = ("parameter", "present", "", "from", "to", "fair from", "to", "what it is")
 _FOOT = """\
-x from AP forward, z from the base line up. Each interval is that of the parameter asked for alone:
-beyond it the map folds, a round end cannot be made anew, or what comes out is no ship. Towards its
-ends a line of the net may still be refused, with its name and the place."""
+x from AP forward, z from the base line up. Each interval is that of the parameter asked for alone.
+Between the fair ends lines stay about as fair as they are. Beyond, some get bends that the report
+names; hulls that no one would take are refused, unless --accept takes them. Beyond the other two
+the map folds, a round end cannot be made anew, or what comes out is no ship. Towards all ends a
+line may still be refused, with its name and the place."""
 
 
 @attrs.frozen
@@ -292,6 +328,8 @@ class ListedParameter:
         Present value; None where the hull has none, for the `reason`.
     low, high : float or None
         Between these (m or degrees) it may be asked for alone; None where nothing ends it.
+    fair_low, fair_high : float or None
+        Between these lines stay about as fair as they are.
     conflicts : tuple of str
         Parameters that cannot be asked for beside it.
     reason : str or None
@@ -304,6 +342,8 @@ class ListedParameter:
     value: float | None
     low: float | None
     high: float | None
+    fair_low: float | None
+    fair_high: float | None
     conflicts: tuple[str, ...]
     reason: str | None
 
@@ -311,19 +351,19 @@ class ListedParameter:
     def words(self) -> tuple[str, ...]:
         """What a table says of it, in columns."""
         if self.value is None:
-            return self.name, "-", "", "", "", str(self.reason)
+            return self.name, "-", "", "", "", "", "", str(self.reason)
         now = f"{self.value:.4f}"
         if self.reason is not None:
-            return self.name, now, self.unit, "", "", self.reason
+            return self.name, now, self.unit, "", "", "", "", self.reason
         apart = f"; not with {' or '.join(self.conflicts)}" if self.conflicts else ""
         return (
-            self.name, now, self.unit, self._low, _end(self.high, math.floor), self.meaning + apart
+            self.name, now, self.unit, self._from(self.low), _end(self.high, math.floor),
+            self._from(self.fair_low), _end(self.fair_high, math.floor), self.meaning + apart,
         )  # fmt: skip
 
-    @property
-    def _low(self) -> str:
-        open_ = self.low == 0.0 and CATALOGUE[self.name].positive
-        return "> 0" if open_ else _end(self.low, math.ceil)
+    def _from(self, low: float | None) -> str:
+        open_ = low == 0.0 and CATALOGUE[self.name].positive
+        return "> 0" if open_ else _end(low, math.ceil)
 
 
 def parameter_table(found: Sequence[ListedParameter]) -> str:
@@ -332,11 +372,13 @@ def parameter_table(found: Sequence[ListedParameter]) -> str:
     Examples
     --------
     >>> from assoc_hull.variation.carrying.admissible_values import ListedParameter, parameter_table
-    >>> shaft = ListedParameter("shaft_height", "m", "height", 5.0, 2.71649, 11.55896, (), None)
+    >>> shaft = ListedParameter(
+    ...     "shaft_height", "m", "height", 5.0, 2.71649, 11.55896, 4.0, 6.0, (), None
+    ... )
     >>> for row in parameter_table([shaft]).splitlines()[:2]:
     ...     print(row)
-    parameter     present      from     to  what it is
-    shaft_height   5.0000  m  2.717  11.55  height
+    parameter     present      from     to  fair from  to  what it is
+    shaft_height   5.0000  m  2.717  11.55          4   6  height
     """
     rows = [_HEAD, *(each.words for each in found)]
     wide = [max(len(row[k]) for row in rows) for k in range(len(_HEAD) - 1)]
@@ -391,14 +433,17 @@ def list_parameters(
 def _listed(name: str, found: Measures, room: AdmissibleValues, limited: bool) -> ListedParameter:
     entry, reason = CATALOGUE[name], found.absent.get(name)
     value = room.present.get(name)
-    low = high = None
+    low = high = fair_low = fair_high = None
     if value is None:
         reason = reason or "the deck edge does not reach there"
     elif limited:
         try:
-            low, high = (each if math.isfinite(each) else None for each in room.interval(name))
+            ends = (*room.interval(name), *room.fair_interval(name))
+            low, high, fair_low, fair_high = (x if math.isfinite(x) else None for x in ends)
         except BadInputError as error:
             reason = f"cannot be varied: {error.what.partition(': ')[2] or error.what}"
+    beside = drawn_breadth(found.anchors[name]) if name == "breadth" else ()
     return ListedParameter(
-        name, entry.unit, entry.meaning, value, low, high, conflicts(name, room.layout), reason
-    )
+        name, entry.unit, "; ".join((entry.meaning, *beside)), value, low, high,
+        fair_low, fair_high, conflicts(name, room.layout), reason,
+    )  # fmt: skip

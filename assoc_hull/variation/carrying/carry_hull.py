@@ -206,15 +206,13 @@ def resized_particulars(
         Values of named parameters that are asked for.
     """
     ship = state.particulars
-    found = {name: asked[name] for name in ("length", "draught") if name in asked}
+    found = {name: asked[name] for name in ("length", "breadth", "draught") if name in asked}
     deck = parent.places.get("deck", np.array([0.5 * ship.length, 0.0, ship.depth]))
     rise = float(vmap(deck[None, :])[0, 2] - deck[2])
     if rise != 0.0:
         found["depth"] = ship.depth + rise
-    sizes = ("breadth", ship.breadth, parent.breadth), ("depth", ship.depth, parent.depth)
-    for name, stored, measured in sizes:
-        if name in asked:
-            found[name] = _in_proportion(stored, measured, asked[name])
+    if "depth" in asked:
+        found["depth"] = _in_proportion(ship.depth, parent.depth, asked["depth"])
     return attrs.evolve(
         ship, length=found.get("length", ship.length), breadth=found.get("breadth", ship.breadth),
         depth=found.get("depth", ship.depth), draught=found.get("draught", ship.draught),

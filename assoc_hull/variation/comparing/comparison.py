@@ -523,11 +523,20 @@ def _less_fair(found: HullComparison, count: int) -> Iterator[str]:
         yield f"WARNING: {lines} less fair than in the parent"
         yield from (
             f"  {line.name}: {line.added:+d} changes of curvature sign, comb integral "
-            + ("of no parent" if line.comb_ratio is None else f"{line.comb_ratio:.3g} times")
+            + _comb_words(line)
             for line in less[:count]
         )
         if len(less) > count:
             yield f"  and {len(less) - count} more"
+
+
+def _comb_words(line: LineComparison) -> str:
+    """Say by how much the comb integral has risen; of a line that was straight, to what."""
+    if line.comb_ratio is None:
+        return "of no parent"
+    if math.isinf(line.comb_ratio) and line.fairness is not None:
+        return f"0 > {line.fairness.after.comb:.3g} 1/m3"
+    return f"{line.comb_ratio:.3g} times"
 
 
 def _lines(found: HullComparison, count: int) -> Iterator[str]:

@@ -19,24 +19,28 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from functools import cached_property
 
 import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.fairness.combs import (
     DEAD_BAND,
     comb_integrals,
     sampled_curvatures,
 )
 from assoc_hull.geometry.splines.arc_length import arc_length
+from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.tables import HullState
 
 __all__ = [
     "FairnessChange",
     "FairnessComparison",
+    "ImagedLines",
     "LineFairness",
     "compare_fairness",
     "measure_fairness",
@@ -64,6 +68,8 @@ class LineFairness:
         Greatest curvature.
     length : float, m
         Of all its curves.
+    border : bool
+        Whether it is a boundary curve: an end of the hull, the border of a flat, a knuckle line.
     """
 
     key: str
@@ -73,6 +79,7 @@ class LineFairness:
     comb: float
     greatest: float
     length: float
+    border: bool = False
 
     @property
     def is_straight(self) -> bool:
@@ -120,6 +127,16 @@ class FairnessChange:
         if not self.before.length:
             return self.comb_ratio
         return self.comb_ratio * (self.after.length / self.before.length) ** 3
+
+
+_SLIGHT = 10.0
+"""A comb, at the size of its line, that is hardly seen: that of two waves whose height is a five
+hundredth of the length."""
+
+
+def _comb_at_size(line: LineFairness) -> float:
+    """Give the comb integral of a line as if it were 1 m long: no size counts in it."""
+    return line.comb * line.length**3
 
 
 @attrs.frozen(eq=False)
@@ -178,10 +195,109 @@ class FairnessComparison:
         return max((each for each in ratios if not np.isnan(each)), default=1.0)
 
     @property
+    def unfairness(self) -> tuple[tuple[FairnessChange, float], ...]:
+        """Give the lines that have changed, each with how much sharper its comb has become.
+
+        That is at the size that the line had, in parts of its own comb or, where that is nearly
+        straight, of a slight one: what nobody sees is not made large by a division. A long border,
+        as a profile that is straight so far, may bend at its end as other lines do.
+        """
+        combs = [line.before.comb for line in self.lines if not line.before.border]
+        usual = float(np.median([comb for comb in combs if comb > 0.0] or [0.0]))
+        return tuple(
+            (line, _comb_at_size(line.after) / max(
+                _comb_at_size(line.before), _SLIGHT,
+                usual * line.before.length**3 if line.before.border else 0.0,
+            ))
+            for line in self.changed
+        )  # fmt: skip
+
+    @property
     def worst_line(self) -> FairnessChange | None:
         """The line with the greatest comb ratio, the first of equals; None if none has one."""
         told = [line for line in self.changed if not np.isnan(line.comb_ratio)]
         return max(told, key=lambda line: line.comb_ratio, default=None)
+
+
+@attrs.frozen(eq=False)
+class ImagedLines:
+    """Lines of a hull at places close together, of which a map is judged before it is carried.
+
+    Attributes
+    ----------
+    lines : tuple of LineFairness
+        What they are named; their numbers are those of the hull as it is drawn.
+    owner : (m,) int
+        To which of them each curve belongs, once for each of its views.
+    views : (m, 3)
+        Normals of the planes in which the curves are seen.
+    close : CurveData
+        The curves at places close together.
+    """
+
+    lines: tuple[LineFairness, ...]
+    owner: IntArray
+    views: FloatArray
+    close: CurveData
+
+    @classmethod
+    def of(cls, state: HullState) -> ImagedLines:
+        """Take all lines of a hull."""
+        lines = tuple(measure_fairness(state).values())
+        place = {line.key: i for i, line in enumerate(lines)}
+        seen = [
+            (place[key], state.spline(curve), view)
+            for line in state.live("lines").tolist() if (key := str(state.lines.key[line])) in place
+            for curve in state.curves_of(line) for view in lines[place[key]].views
+        ]  # fmt: skip
+        batch = SplineBatch.join([spline for _, spline, _ in seen])
+        chords = int(np.clip(_PLACES // len(batch.knot), 1, _CLOSE))
+        owner = np.array([line for line, _, _ in seen])
+        return cls(lines, owner, np.array([view for *_, view in seen]), _close(batch, chords))
+
+    @cached_property
+    def before(self) -> Mapping[str, LineFairness]:
+        """The lines as they are, drawn through the places close together as images are."""
+        return self._drawn(self.close.xyz)
+
+    def compared(self, move: Callable[[FloatArray], FloatArray]) -> FairnessComparison:
+        """Compare the images of the lines under a map with the lines."""
+        return compare_fairness(self.before, self._drawn(move(self.close.xyz)))
+
+    def _drawn(self, xyz: FloatArray) -> Mapping[str, LineFairness]:
+        batch = loft(attrs.evolve(self.close, xyz=xyz))
+        lengths = np.zeros(len(self.lines))
+        np.add.at(lengths, self.owner, arc_length(batch))
+        found = _summed(batch, self.views, self.owner, DEAD_BAND)
+        return {
+            line.key: attrs.evolve(
+                line, sign_changes=each[0], comb=each[1], greatest=each[2],
+                length=length / len(line.views),
+            )
+            for line, each, length in zip(self.lines, found, lengths.tolist(), strict=True)
+        }  # fmt: skip
+
+
+_CLOSE = 4
+"""Chords at most that stand for a segment of a line whose image is judged."""
+
+_PLACES = 4000
+"""In nets of more places segments are short: fewer chords will do."""
+
+_TURNS = 1e-9
+"""Unit derivatives beside a point that differ by more turn there."""
+
+
+def _close(batch: SplineBatch, chords: int) -> CurveData:
+    """Give curves through places close together that turn where the splines do."""
+    start, xyz = sample(batch, chords)
+    kind = np.zeros(len(xyz), np.int8)
+    for i in range(batch.count):
+        mine = slice(int(batch.start[i]), int(batch.start[i + 1]))
+        turns = (np.abs(batch.leave[mine] - batch.arrive[mine]) > _TURNS).any(axis=1)
+        kind[int(start[i]) : int(start[i + 1]) : chords][turns] = int(PointKind.KNUCKLE)
+    none = np.zeros((batch.count, 2), np.int8)
+    return CurveData(start, xyz, kind, np.zeros_like(xyz), none, np.zeros((batch.count, 2, 3)))
 
 
 def measure_fairness(
@@ -238,10 +354,11 @@ def measure_fairness(
     lengths = np.bincount(owner, arc_length(batch))
     return {
         str(table.key[line]): LineFairness(
-            str(table.key[line]), str(table.name[line]), views[line], *each, length
+            str(table.key[line]), str(table.name[line]), views[line], *each, length,
+            bool(table.boundary[line] >= 0),
         )
         for line, each, length in zip(wanted, found, lengths.tolist(), strict=True)
-    }
+    }  # fmt: skip
 
 
 def _summed(

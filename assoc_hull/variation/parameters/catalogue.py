@@ -93,7 +93,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             None,
             "ratio of x about the AP, everywhere",
         ),
-        entry("breadth", "B", "m", "greatest breadth of the net", None, "ratio of y, everywhere"),
+        entry("breadth", "B", "m", "breadth of the ship", None, "ratio of y, everywhere"),
         entry("draught", "T", "m", "design draught", None, "ratio of z up to T, shift at its top"),
         entry(
             "depth",
@@ -291,7 +291,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "waterline_fullness",
             "C_WL",
             "-",
-            "area of the design waterline by Lpp and greatest breadth",
+            "area of the design waterline by Lpp and breadth",
             waterline_fields.waterline_fullness_field,
             "ratio of y about T, nothing at the ends and along the parallel body",
         ),

@@ -45,6 +45,7 @@ __all__ = [
     "depth",
     "design_waterline",
     "draught",
+    "drawn_breadth",
     "entrance_deg",
     "fore_end_at_draught",
     "fore_frame_height",
@@ -91,10 +92,41 @@ def length(hull: DrawnCurves) -> MeasuredParameter:
 
 
 def breadth(hull: DrawnCurves) -> MeasuredParameter:
-    """Give twice the greatest y of all curves."""
+    """Give B as stored; `drawn`: twice the greatest y of all curves, which may differ from it.
+
+    Lines may bulge between the offsets of a table, and flare above the waterline that B is of.
+    """
     place = hull.extreme(range(hull.net.batch.count), 1)
     return MeasuredParameter(
-        "breadth", "m", 2.0 * float(place[1]), "twice the greatest y of all curves", [place]
+        "breadth", "m", hull.ship.breadth, "the stored particular", [place],
+        numbers={"drawn": 2.0 * float(place[1])},
+    )  # fmt: skip
+
+
+_SHOWN = 5e-4
+"""m: breadths that differ by less are printed alike."""
+
+
+def drawn_breadth(measured: MeasuredParameter) -> tuple[str, ...]:
+    """Tell where lines are not drawn as broad as the ship is; nothing where they are.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.parameters.hull_and_end_measures import drawn_breadth
+    >>> from assoc_hull.variation.parameters.measurement import MeasuredParameter
+    >>> flared = MeasuredParameter(
+    ...     "breadth", "m", 9.0, places=[[29.8, 4.6, 4.0]], numbers={"drawn": 9.2}
+    ... )
+    >>> drawn_breadth(flared)
+    ('the lines are at most 9.2 m broad, at x=29.8 z=4, where the breadth of the ship is 9 m',)
+    """
+    ship, drawn = measured.value, measured.numbers["drawn"]
+    if ship is None or abs(drawn - ship) < _SHOWN:
+        return ()
+    x, _, z = np.round(measured.places[0], 3).tolist()
+    return (
+        f"the lines are at most {round(drawn, 3):g} m broad, at x={x:g} z={z:g}, where the breadth "
+        f"of the ship is {round(ship, 3):g} m",
     )
 
 
@@ -562,13 +594,12 @@ def _chord(hull: DrawnCurves, name: str, end: int, part: float) -> MeasuredParam
 
 
 def waterline_fullness(hull: DrawnCurves) -> MeasuredParameter:
-    """Give the coefficient of the design waterline: its area by Lpp and greatest breadth."""
+    """Give the coefficient of the design waterline: its area by Lpp and B."""
     waterline = hull.take(design_waterline)
     if isinstance(waterline, str):
         return MeasuredParameter("waterline_fullness", "-", None, reason=waterline)
     ends = waterline_ends(waterline)
-    broad = hull.take(breadth).value or hull.ship.breadth
-    value = 2.0 * abs(_area_over_x(waterline)) / (hull.length * broad)
+    value = 2.0 * abs(_area_over_x(waterline)) / (hull.length * hull.ship.breadth)
     return MeasuredParameter(
         "waterline_fullness", "-", value, "area of the design waterline by Lpp and breadth",
         np.array(ends),

@@ -168,10 +168,9 @@ def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
         places.update(_largest_stations(state))
     places.update(_cylinder(state, places.get("boss side")))
     depth = float(found["depth"]) if "depth" in found else ship.depth
-    breadth = float(found["breadth"]) if "breadth" in found else ship.breadth
     top = float(every[:, 2].max())
     return Parent(
-        ship.length, breadth, depth, ship.draught, top, places, dict(found.absent),
+        ship.length, ship.breadth, depth, ship.draught, top, places, dict(found.absent),
         cache(lambda: measure_frames(DrawnCurves(state))),
         cache(lambda: _waterline(DrawnCurves(state))),
         cache(lambda: bulb_frame(DrawnCurves(state)) or _no_frames()),

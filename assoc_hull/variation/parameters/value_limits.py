@@ -30,6 +30,7 @@ from assoc_hull.variation.parameters.parent import Parent
 __all__ = [
     "ValueBounds",
     "admissible_interval",
+    "fair_end",
     "hull_box",
     "present_values",
     "value_bounds",
@@ -236,3 +237,56 @@ def admissible_interval(
     # an end that a bound sets was found only nearly
     low = rule.low if low <= rule.low + _NEAR else low
     return low, rule.high if high >= rule.high - _NEAR else high
+
+
+# --------------------------------------------------------------------------------------
+# Fair ends: as far as no line gets bends.
+
+_SHARPEST = math.log(4.0)
+"""Logarithm of how much sharper a comb may become: a line drawn through its own points is up to
+two and a half times as sharp as its image, and above ten times it has a kink."""
+
+_FIRST = 0.1
+"""First step, as a part of the value, towards an end that nothing sets; and the least one."""
+
+_WIDER = 2.0
+_TRIALS = 6
+
+
+def fair_end(sharper: Callable[[float], float], now: float, end: float) -> float:
+    """Give the last value towards an end at which lines are about as fair as they are.
+
+    Parameters
+    ----------
+    sharper : callable
+        Gives the logarithm of how much sharper the sharpest comb becomes at a value.
+    now, end : float
+        The present value, and that beyond which there is none, m or degrees; it may be infinite.
+
+    Examples
+    --------
+    >>> import math
+    >>> from assoc_hull.variation.parameters.value_limits import fair_end
+    >>> round(fair_end(lambda value: 2.0 * math.log(value), 1.0, math.inf), 2)
+    1.93
+    """
+    if math.isfinite(end) and sharper(end) <= _SHARPEST:
+        return end
+    step = max(_FIRST * abs(now), _FIRST)
+    way = math.copysign(1.0, end - now)
+    held, known, failed, over = now, 0.0, now, 0.0
+    while over <= _SHARPEST:
+        if failed == end or abs(failed) > _LARGEST:
+            return end
+        held, known = failed, over
+        failed += way * min(step, abs(end - failed))
+        over, step = sharper(failed), _WIDER * step
+    for trial in range(_TRIALS):
+        part = (_SHARPEST - known) / (over - known) if math.isfinite(over) and trial % 2 else 0.5
+        tried = held + part * (failed - held)
+        value = sharper(tried)
+        if value <= _SHARPEST:
+            held, known = tried, value
+        else:
+            failed, over = tried, value
+    return held

@@ -332,7 +332,7 @@ class ShiftWork:
         """Give the shift of sizes (2,), m, as a variation by raw layers."""
         return VariationRequest.of(
             self.dimensions, layers=[self.terms.data(*sizes.tolist())],
-            tolerance=self.ask.tolerance, name=self.ask.name,
+            tolerance=self.ask.tolerance, accept=True, name=self.ask.name,
         )  # fmt: skip
 
     def values(self, sizes: FloatArray) -> FloatArray:
@@ -349,7 +349,7 @@ class ShiftWork:
 def _scaled(state: HullState, dimensions: Mapping[str, float]) -> HullState:
     """Give the tables of a hull with other dimensions."""
     trial = Document(copy_state(state))
-    vary_document(trial, VariationRequest.of(dimensions))
+    vary_document(trial, VariationRequest.of(dimensions, accept=True))
     return trial.state
 
 

@@ -118,9 +118,9 @@ def swing_document(
 
 
 def _dimensions(state: HullState) -> dict[str, float]:
-    """Give length and draught as they are stored, breadth and depth as they are measured."""
-    ship, measured = state.particulars, measure_all(state, ["breadth", "depth"])
+    """Give the dimensions as they are stored, but the depth as it is measured."""
+    ship, measured = state.particulars, measure_all(state, ["depth"])
     return {
-        "length": ship.length, "breadth": measured.get("breadth", ship.breadth),
-        "draught": ship.draught, "depth": measured.get("depth", ship.depth),
+        "length": ship.length, "breadth": ship.breadth, "draught": ship.draught,
+        "depth": measured.get("depth", ship.depth),
     }  # fmt: skip

@@ -113,6 +113,21 @@ def test_a_name_that_is_no_command_is_told_what_may_be_meant(
     assert told.startswith(f"error: there is no command '{typed}'; did you mean '{meant}'")
 
 
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        (["example", "series60"], "series60-0"),
+        (["vary", "a.hull", "--stations", "numbers"], "number"),
+    ],
+)
+def test_a_choice_that_is_none_is_answered_with_the_nearest(
+    typed: list[str], meant: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Names of examples and words of options, before all that there are."""
+    assert main(typed) == 2
+    assert f"did you mean '{meant}" in capsys.readouterr().err
+
+
 def test_help_loads_no_numbers() -> None:
     """It is there at once: neither numpy nor a hull is imported for it."""
     code = "import sys; from assoc_hull.cli import main; main(['--help']); print(*sys.modules)"

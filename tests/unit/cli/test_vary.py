@@ -27,6 +27,28 @@ def test_the_hull_is_written_with_its_new_values(hull: Path, tmp_path: Path, fac
     assert ah.open(hull).measure()["breadth"] == 10.0
 
 
+def test_lines_broader_than_the_ship_are_told_wherever_her_breadth_is_printed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By `info`, by the list, and by what a variation prints; where they agree, nothing is."""
+    ship, broad = tmp_path / "ship.hull", tmp_path / "broad.hull"
+    ah.examples.plain_ship().save(ship)
+    told = "the lines are at most 18.011 m broad"
+    assert main(["info", str(ship)]) == 0
+    assert told in capsys.readouterr().out
+    assert main(["vary", str(ship), "--list"]) == 0
+    assert f"breadth of the ship; {told}" in capsys.readouterr().out
+    assert main(["vary", str(ship), "breadth=19", "-o", str(broad)]) == 0
+    printed = capsys.readouterr().out
+    assert "breadth 18 -> 19 m" in printed
+    assert "the lines are at most 19.011 m broad" in printed
+    assert main(["info", str(broad)]) == 0
+    assert "breadth 19.000 m" in capsys.readouterr().out
+    ah.examples.wigley().save(tmp_path / "wigley.hull")
+    assert main(["info", str(tmp_path / "wigley.hull")]) == 0
+    assert "at most" not in capsys.readouterr().out
+
+
 def test_a_script_and_options_are_one_request(hull: Path, tmp_path: Path, facts: Json) -> None:
     """The same parent and script give the same fingerprint; the file names the step."""
     script = tmp_path / "broad.json"

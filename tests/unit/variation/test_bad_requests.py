@@ -174,15 +174,15 @@ def room(bulk_carrier: ah.Hull) -> AdmissibleValues:
 
 
 FOLDS = {
-    "a shaft above the deck": ("shaft_height", 30.0, "Z_z"),
+    "a shaft above the deck": ("shaft_height", 30.0, "heights come out -"),
     "a bossing too large": ("bossing_radius", 5.0, "between 'boss"),
     "a deck below the waterline": ("depth", 17.0, "'T' (18.000)"),
-    "a draught above the deck": ("draught", 60.0, "Z_z"),
-    "a hull of no length": ("length", 10.0, "X_x"),
+    "a draught above the deck": ("draught", 60.0, "heights come out -"),
+    "a hull of no length": ("length", 10.0, "along the ship come out"),
     "a bilge too large": ("bilge_radius", 6.0, "at x="),
-    "a parallel body of a tenth": ("parallel_body_start", 198.0, "X_x"),
+    "a parallel body of a tenth": ("parallel_body_start", 198.0, "along the ship come out"),
     "a stem that leans back": ("stem_rake_deg", -79.0, " deg"),
-    "stations that cross": ("fore_shift", 80.0, "X_x"),
+    "stations that cross": ("fore_shift", 80.0, "along the ship come out"),
 }
 """Values that fold the carrier, and what else the message says."""
 

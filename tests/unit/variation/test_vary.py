@@ -66,6 +66,23 @@ def test_the_stored_depth_is_that_of_the_deck(
     assert measured > wigley.measure()["depth"]
 
 
+def test_a_breadth_asked_for_is_that_of_the_particulars_however_broad_lines_are_drawn() -> None:
+    """Lines that pass B/2 between points keep their ratio to it, and the report says so."""
+    parent = ah.examples.plain_ship()
+    before = parent.measure(only=["breadth"]).anchors["breadth"]
+    assert before.value == parent.particulars.breadth == 18.0
+    assert before.numbers["drawn"] > 18.0 + 5e-3
+    found = parent.vary(set={"breadth": 19.0})
+    after = found.hull.measure(only=["breadth"]).anchors["breadth"]
+    assert found.hull.particulars.breadth == after.value == 19.0
+    assert after.numbers["drawn"] == pytest.approx(before.numbers["drawn"] * 19.0 / 18.0, abs=1e-4)
+    [told] = [note for note in found.report.notes if note.startswith("the lines are at most")]
+    assert f"{after.numbers['drawn']:.3f} m broad" in told
+    assert told.endswith("where the breadth of the ship is 19 m")
+    floats = found.hull.hydrostatics()
+    assert floats.cw == pytest.approx(parent.hydrostatics().cw, abs=2e-5)
+
+
 @pytest.mark.parametrize("nudged", [True, False])
 def test_what_lofting_misses_is_corrected(
     series60_70: ah.Hull, monkeypatch: pytest.MonkeyPatch, nudged: bool

@@ -70,3 +70,26 @@ def test_a_line_that_passes_unequal_offsets_is_told_with_its_place(tmp_path: Pat
     assert told is not None
     assert float(told[2]) == pytest.approx(1e3 * over, abs=1.0)
     assert float(told[3]) == pytest.approx(4.4, abs=0.1)
+
+
+@pytest.mark.parametrize("sheer", [False, True])
+def test_a_deck_edge_runs_straight_in_plan_along_its_greatest_breadth(
+    tmp_path: Path, sheer: bool
+) -> None:
+    """Also with sheer, and where no flat can be closed: B of the lines is B of the ship."""
+    path, rows = tmp_path / "ship.csv", ship().splitlines()
+    head, body = rows[:3], rows[3:]
+    head[2] += ",keel,sheer,y_deck" if sheer else ",keel"
+    for k, row in enumerate(body):
+        deck = f",{9.0 + 0.02 * (k - 10) ** 2:.2f},{row.split(',')[-1]}" if sheer else ""
+        body[k] = f"{row},{0.3 if k in (0, 20) else 0.0}{deck}"  # a keel that rises: no flats
+    path.write_text("\n".join([*head, *body]) + "\n")
+    hull = ah.read(path)
+    [edge] = hull.lines["deck edge"].curves
+    drawn = edge.polyline(48)
+    assert np.ptp(drawn[:, 2]) == pytest.approx(2.0 if sheer else 0.0, abs=1e-6)
+    assert drawn[:, 1].max() <= 8.0 + 0.1 * UNIT
+    middle = drawn[abs(drawn[:, 0] - 50.0) < 20.0]
+    assert np.ptp(middle[:, 1]) <= 0.1 * UNIT
+    assert hull.adoption is not None
+    assert not [note for note in hull.adoption.notes if note.startswith("broader")]

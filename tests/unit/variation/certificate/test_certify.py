@@ -156,7 +156,7 @@ def test_refusal_says_where_and_between_what() -> None:
     with pytest.raises(FoldError) as caught:
         certify(shaft(4.2, BLENDS["cubic"]), BOX).check()
     text = str(caught.value)
-    assert "'shaft_height' folds at x=4.370 z=7.765 (Z_z=-0.038)" in text
+    assert "'shaft_height' folds at x=4.370 z=7.765 (heights come out -0.038 times as far" in text
     assert "between 'shaft+r' (4.730) and 'T' (10.800), node x=4.370" in text
     assert caught.value.least == pytest.approx(-0.0378912685, abs=1e-9)
 

@@ -316,3 +316,14 @@ def test_a_damaged_document_is_invalid(
     document = json.loads(found.to_json())
     change(document)
     assert not Draft202012Validator(comparison_schema()).is_valid(document)
+
+
+def test_a_line_that_was_straight_is_told_by_its_comb_and_not_by_a_ratio(parent: ah.Hull) -> None:
+    """Raked, the plumb stem of the profile bends: no comb is infinitely many times another."""
+    raked = ah.examples.wigley().vary(set={"stem_rake_deg": 10.0})
+    text = str(ah.examples.wigley().compare(raked.hull))
+    [told] = [line for line in text.splitlines() if line.startswith("  profile:")]
+    assert "comb integral 0 > " in told
+    assert told.endswith(" 1/m3")
+    assert "inf times" not in text
+    assert not [note for note in raked.report.notes if "inf" in note]

@@ -198,13 +198,18 @@ def test_a_hull_of_another_size_measures_in_proportion(
 def test_a_broader_hull_has_the_same_heights_and_no_bossing_circle(
     bulk_carrier: ah.Hull, carrier: Measures
 ) -> None:
-    """Breadths follow a ratio of y; an ellipse is no bossing circle, but has a height."""
+    """Breadths follow a ratio of y; an ellipse is no bossing circle, but has a height.
+
+    The breadth of the ship is that of her particulars; beside it stands how broad she is drawn.
+    """
     state = mapped(bulk_carrier, lambda p: p * [1.0, 1.03, 1.0])
     found = measure_all(state)
     assert found.absent == {"bossing_radius": "parent has no bossing circle"}
-    exact = ("breadth", "transom_half_breadth", "flat_of_bottom")
+    exact = ("transom_half_breadth", "flat_of_bottom")
     for name in exact:
         assert found[name] == pytest.approx(1.03 * carrier[name], abs=1e-6)
+    assert found["breadth"] == bulk_carrier.particulars.breadth
+    assert found.anchors["breadth"].numbers["drawn"] == pytest.approx(1.03 * 50.0, abs=1e-6)
     assert found["bulb_half_breadth"] == pytest.approx(
         1.03 * carrier["bulb_half_breadth"], abs=2e-3
     )
