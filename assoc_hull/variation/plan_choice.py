@@ -39,11 +39,15 @@ from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.stages import Plan, class_plan, finer_plan, single_plan
 from assoc_hull.variation.request import TargetRequest, VariationRequest
 
-__all__ = ["KINK", "choose_plan", "parent_fairness"]
+__all__ = ["KINK", "beyond_fair", "choose_plan", "parent_fairness"]
 
 KINK = 10.0
 """A line whose comb is larger than this many times the parent's has a kink, though nothing folds:
 4 times is usual, and a line that folds nearly has hundreds."""
+
+_BEYOND = 100.0
+"""A comb that becomes so many times sharper is of a hull that no one would take: ten times is a
+kink, and a line that folds nearly has hundreds."""
 
 _OF_TARGETS = (UnreachableError, DependentTargetsError, TooFewFreeError, UnknownNameError)
 """What is wrong with targets is so whatever the plan."""
@@ -128,7 +132,7 @@ def choose_plan(
             continue
         return found, _judged(edit, before)[0]
     assert refusal is not None, "there is a plan at least"
-    raise _refused(edit, room, ask, *refusal) from None
+    raise _refused(edit, room, ask, before, *refusal) from None
 
 
 def parent_fairness(state: HullState) -> Mapping[str, LineFairness]:
@@ -140,6 +144,15 @@ def parent_fairness(state: HullState) -> Mapping[str, LineFairness]:
         lines.normal, tuple(lines.name.data), tuple(lines.key.data),
     )  # fmt: skip
     return state.derived(("fairness",), depends_on, lambda: measure_fairness(state), most=2)
+
+
+def beyond_fair(fairness: FairnessComparison) -> list[tuple[str, float]]:
+    """Give the lines that bend as sharply as no one would take, worst first, and how many times.
+
+    A border alone, as a stem that is to be raked, may come to bend as it has not.
+    """
+    found = sorted(fairness.unfairness, key=lambda each: -each[1])
+    return [(ln.name, times) for ln, times in found if times > _BEYOND and not ln.before.border]
 
 
 def _candidates(ask: VariationRequest) -> list[tuple[Plan, bool]]:
@@ -181,21 +194,24 @@ def _refused(
     edit: Transaction,
     room: AdmissibleValues,
     ask: VariationRequest,
+    before: Mapping[str, LineFairness],
     error: AssocHullError,
     carry: StagedCarry,
 ) -> AssocHullError:
     """Say what of the request can be had, of several values."""
     if ask.reach is not None and ask.values:
-        return _refused_reach(edit, room, ask, ask.reach, error, carry)
+        return _refused_reach(edit, room, ask, ask.reach, before, error, carry)
     alone = isinstance(error, OutOfRangeError) or (isinstance(error, FoldError) and not error.part)
     if len(ask.values) < 2 or alone:
         return error  # it names a value, and what may be asked for
     blamed = () if carry.refused is None else carry.refused.names
-    leave_out = next((name for name in blamed if _goes(edit, room, _without(ask, name))), None)
+    leave_out = next(
+        (name for name in blamed if _goes(edit, room, _without(ask, name), before)), None
+    )
     part, low, high = 0.0, 0.0, 1.0
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        if _goes(edit, room, _part(ask, room, middle)):
+        if _goes(edit, room, _part(ask, room, middle), before):
             low = part = middle
         else:
             high = middle
@@ -214,12 +230,12 @@ def _refused(
 
 def _refused_reach(
     edit: Transaction, room: AdmissibleValues, ask: VariationRequest, reach: TargetRequest,
-    error: AssocHullError, carry: StagedCarry,
+    before: Mapping[str, LineFairness], error: AssocHullError, carry: StagedCarry,
 ) -> AssocHullError:  # fmt: skip
     """Say whether it is the values that cannot be had, or the targets beside them."""
     values = attrs.evolve(ask, reach=None)
-    if not _goes(edit, room, values):
-        return _refused(edit, room, values, error, carry)
+    if not _goes(edit, room, values, before):
+        return _refused(edit, room, values, before, error, carry)
     names = tuple(reach.targets)
     there = Outputs.of(edit.state, names).values(edit.state).tolist()
     edit.take_back()
@@ -233,14 +249,17 @@ def _refused_reach(
     )  # fmt: skip
 
 
-def _goes(edit: Transaction, room: AdmissibleValues, ask: VariationRequest) -> bool:
-    """Tell whether a request is taken."""
+def _goes(
+    edit: Transaction, room: AdmissibleValues, ask: VariationRequest,
+    before: Mapping[str, LineFairness],
+) -> bool:  # fmt: skip
+    """Tell whether a request is taken, beside the lines of the parent."""
     plan = class_plan(ask.values, layers=bool(ask.layers))
     try:
         settle_plan(StagedCarry(edit, ask, plan), room)
     except AssocHullError:
         return False
-    return True
+    return ask.accept or not beyond_fair(_judged(edit, before)[0])
 
 
 def _without(ask: VariationRequest, name: str) -> VariationRequest:

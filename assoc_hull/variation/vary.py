@@ -37,7 +37,7 @@ from assoc_hull.variation.parameters.parameter_fields import shift_terminals
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import Parent
 from assoc_hull.variation.parameters.value_limits import present_values
-from assoc_hull.variation.plan_choice import KINK, choose_plan, parent_fairness
+from assoc_hull.variation.plan_choice import KINK, beyond_fair, choose_plan, parent_fairness
 from assoc_hull.variation.request import VariationRequest, script_of, title_of
 
 if TYPE_CHECKING:
@@ -134,10 +134,6 @@ def _sharper(line: FairnessChange) -> str:
     return f"{line.comb_ratio:.3g} times the parent's, {line.shape_ratio:.3g} at the size it had"
 
 
-_BEYOND = 100.0
-"""A comb that becomes so many times sharper is of a hull that no one would take: ten times is a
-kink, and a line that folds nearly has hundreds."""
-
 _NAMED = 3
 """So many lines are named."""
 
@@ -145,14 +141,8 @@ _NAMED = 3
 def _refuse_unfair(
     edit: Transaction, ask: VariationRequest, room: AdmissibleValues, fairness: FairnessComparison
 ) -> None:
-    """Refuse a hull that no one would take for its lines, with the values that would be fair.
-
-    A border alone, as a stem that is to be raked, may come to bend as it has not.
-    """
-    found = sorted(fairness.unfairness, key=lambda each: -each[1])
-    beyond = [
-        (line.name, times) for line, times in found if times > _BEYOND and not line.before.border
-    ]
+    """Refuse a hull that no one would take for its lines, with the values that would be fair."""
+    beyond = beyond_fair(fairness)
     if not beyond:
         return
     lines = ", ".join(f"{name} {times:.3g} times" for name, times in beyond[:_NAMED])

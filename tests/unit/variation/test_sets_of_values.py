@@ -221,7 +221,7 @@ def test_lines_with_a_kink_are_named(by_paper: ByPaper) -> None:
 
 def test_what_cannot_be_had_together_is_refused_with_what_can(parent: ah.Hull) -> None:
     """Both remedies of the message work."""
-    asked = {"draught": 30.0, "depth": 22.5}
+    asked = {"draught": 24.0, "depth": 24.75}
     before = parent.fingerprint
     with pytest.raises(RefusedSetError, match="cannot be had together") as caught:
         parent.vary(set=asked)
@@ -233,6 +233,14 @@ def test_what_cannot_be_had_together_is_refused_with_what_can(parent: ah.Hull) -
     assert 0.0 < error.part < 1.0
     assert f"draught={error.values['draught']:.6g}" in str(error)
     assert parent.vary(set=error.values).report.edit.changed
+
+
+def test_what_no_one_would_take_alone_is_no_remedy(parent: ah.Hull) -> None:
+    """Neither draught nor depth can be had without the other here: no name is left out for it."""
+    with pytest.raises(RefusedSetError, match="cannot be had together") as caught:
+        parent.vary(set={"draught": 30.0, "depth": 22.5})
+    assert caught.value.leave_out is None
+    assert parent.vary(set=caught.value.values).report.edit.changed
 
 
 def test_what_is_set_cannot_be_free(parent: ah.Hull) -> None:
