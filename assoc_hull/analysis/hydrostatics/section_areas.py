@@ -40,6 +40,7 @@ __all__ = [
     "between_stations",
     "bonjean",
     "section_areas",
+    "sectional_area_course",
     "sectional_areas",
     "wet_extent",
 ]
@@ -370,6 +371,53 @@ def sectional_areas(hull: HasState, position: FloatingPosition) -> StationAreas:
     body = body_of(hull)
     planes = require_afloat([position], body.limits, hull.state.particulars.length)
     return body.stations(planes)
+
+
+_COURSE = 400
+"""So many places are a curve of areas that is drawn."""
+
+
+def sectional_area_course(hull: HasState, position: FloatingPosition) -> FloatArray | None:
+    """Give places (n, 2), m and m2, of the sectional-area curve, from one end to the other.
+
+    It ends at no area, also where a transom stands in the water: upright there. None where tunnels
+    are cut out of the hull, whose areas are known at stations.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    position : FloatingPosition
+        Where it floats, moulded.
+
+    Raises
+    ------
+    OutOfRangeError
+        It does not float there.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
+    >>> from assoc_hull.analysis.hydrostatics.section_areas import sectional_area_course
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> course = sectional_area_course(wigley(), FloatingPosition(6.25, 6.25))
+    >>> course[[0, -1]].round(6).tolist()
+    [[0.0, 0.0], [100.0, 0.0]]
+    """
+    body = body_of(hull)
+    if not isinstance(body, Flotation):
+        return None
+    planes = require_afloat([position], body.limits, hull.state.particulars.length)
+    curve = area_curve(body, planes)
+    # Beside each break, as the curve may jump there.
+    near = np.concatenate([curve.breaks - _SAME, curve.breaks + _SAME])
+    every = np.linspace(curve.low, curve.high, _COURSE)
+    x = np.unique(np.clip(np.concatenate([every, near]), curve.low, curve.high))
+    area = curve.at(x)
+    known = np.isfinite(area)
+    found = np.column_stack([x[known], area[known]])
+    freeze(course := np.concatenate([[[curve.low, 0.0]], found, [[curve.high, 0.0]]]))
+    return course
 
 
 def bonjean(hull: HasState, levels: int = 41) -> Bonjean:

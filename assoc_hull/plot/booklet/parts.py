@@ -19,7 +19,11 @@ from assoc_hull.analysis.hydrostatics.floating_body import Appendage, FloatingPo
 from assoc_hull.analysis.hydrostatics.flotation import body_of
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatic_table
 from assoc_hull.analysis.hydrostatics.record import FIELDS, HydrostaticTable
-from assoc_hull.analysis.hydrostatics.section_areas import bonjean, sectional_areas
+from assoc_hull.analysis.hydrostatics.section_areas import (
+    bonjean,
+    sectional_area_course,
+    sectional_areas,
+)
 from assoc_hull.analysis.stability.condition import OnError
 from assoc_hull.analysis.stability.criteria import Criterion, unjudged_criteria
 from assoc_hull.analysis.stability.cross_curves import CrossCurves, cross_curves
@@ -330,7 +334,10 @@ def _areas(hull: HasState, design: HydrostaticTable) -> BookPart:
         tuple((name, float(x), float(x) / length, float(each), float(each) / most)
               for name, x, each in zip(found.names, found.x, area, strict=True)),
     )  # fmt: skip
-    curve = BookPicture("Sectional-area curve", lambda: sectional_area_curve(found, design))
+    course = sectional_area_course(hull, design.positions[0])
+    curve = BookPicture(
+        "Sectional-area curve", lambda: sectional_area_curve(found, design, course=course)
+    )
     return BookPart("areas", "Sectional areas", (), (table,), (curve,))
 
 

@@ -14,7 +14,12 @@ import numpy as np
 
 from assoc_hull.analysis.hydrostatics.floating_body import StationAreas
 from assoc_hull.analysis.hydrostatics.record import FIELDS, HydrostaticTable
-from assoc_hull.analysis.hydrostatics.section_areas import Bonjean, bonjean, sectional_areas
+from assoc_hull.analysis.hydrostatics.section_areas import (
+    Bonjean,
+    bonjean,
+    sectional_area_course,
+    sectional_areas,
+)
 from assoc_hull.arguments import choice
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
@@ -235,6 +240,7 @@ def sectional_area_curve(
     table: HydrostaticTable,
     path: Path_ | None = None,
     *,
+    course: FloatArray | None = None,
     paper: PaperName = "A3",
 ) -> Figure:
     """Draw the areas of the sections along the ship, with volume and centre of buoyancy.
@@ -242,11 +248,14 @@ def sectional_area_curve(
     Parameters
     ----------
     areas : StationAreas
-        At the first position of the table; the curve goes through them.
+        At the first position of the table.
     table : HydrostaticTable
         Of that position.
     path : path, optional
         Where to write it; the ending says whether PDF, SVG or PNG.
+    course : (n, 2), m and m2, or None
+        The curve, as `sectional_area_course` gives it; None: a smooth one through the stations,
+        which ends at the last of them.
     paper : "A3", "A1" or "A4"
         Size of the sheet, landscape.
 
@@ -261,14 +270,15 @@ def sectional_area_curve(
     sheet = Sheet(paper)
     chart, head = chart_on(sheet, 14.0), table.header
     area, found = areas.area[0], table[0]
-    ends = min(float(areas.x[0]), 0.0), max(float(areas.x[-1]), head.length)
+    course = smooth_course(areas.x, area) if course is None else course
+    x = np.concatenate([areas.x, course[:, 0]])
+    ends = min(float(x.min()), 0.0), max(float(x.max()), head.length)
     along = scale_to(*ends, chart.left, chart.wide, 20, whole=False)
     up = scale_to(0.0, 1.08 * float(area.max()), chart.low, chart.tall, 16)
     level_grid(chart, up, "A, m2")
     chart.border()
     _stations(chart, areas, along)
     _perpendiculars(chart, along, head.length)
-    course = smooth_course(areas.x, area)
     points = np.column_stack([along.at(course[:, 0]), up.at(course[:, 1])])
     sheet.line(points, _CURVE, "curve/areas")
     spots = np.column_stack([along.at(areas.x), up.at(area)])
@@ -443,5 +453,7 @@ def plot_hydrostatics(
     if choice(picture, "picture", PICTURES) == "curves":
         return hydrostatic_curves(table, path)
     if picture == "areas":
-        return sectional_area_curve(sectional_areas(hull, table.positions[0]), table, path)
+        position = table.positions[0]
+        course = sectional_area_course(hull, position)
+        return sectional_area_curve(sectional_areas(hull, position), table, path, course=course)
     return bonjean_curves(hull, bonjean(hull), table, path)

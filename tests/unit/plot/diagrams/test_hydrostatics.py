@@ -8,10 +8,11 @@ import pytest
 from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
+import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition, StationAreas
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatic_table, table_of
 from assoc_hull.analysis.hydrostatics.record import HydrostaticTable
-from assoc_hull.analysis.hydrostatics.section_areas import Bonjean
+from assoc_hull.analysis.hydrostatics.section_areas import Bonjean, sectional_area_course
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
@@ -81,6 +82,23 @@ def test_sectional_areas_are_drawn_at_their_stations(
     assert_allclose(mark[:, 0], spots[10, 0])
     share = (spots[:, 1] - spots[0, 1]) / (spots[10, 1] - spots[0, 1])
     assert_allclose(share, 1.0 - np.linspace(-1, 1, 21) ** 2, atol=1e-9)
+
+
+def test_the_curve_of_areas_ends_where_the_hull_does(lines_of: Lines) -> None:
+    """At no area, beyond the last wet stations; what it encloses is the volume."""
+    hull = ah.examples.series60()
+    draught = hull.particulars.draught
+    course = sectional_area_course(hull, FloatingPosition(draught, draught))
+    assert course is not None
+    assert np.trapezoid(course[:, 1], course[:, 0]) == pytest.approx(
+        hull.hydrostatics().volume, rel=1e-5
+    )
+    assert course[0, 0] < -2.0
+    table = hydrostatic_table(hull, [draught])
+    figure = plot_hydrostatics(hull, table, "areas")
+    (curve,), (spots,) = lines_of(figure, "curve/areas$"), lines_of(figure, "stations$")
+    assert_allclose(curve[[0, -1], 1], curve[:, 1].min())
+    assert curve[0, 0] < spots[spots[:, 1] > curve[0, 1] + 0.1, 0].min()
 
 
 def test_bonjean_curves_start_at_their_stations(
