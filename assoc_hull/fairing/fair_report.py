@@ -20,7 +20,7 @@ from assoc_hull.edit.net_battens import net_battens
 from assoc_hull.edit.report import EditReport
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.fairness.inflections import inflections
+from assoc_hull.geometry.fairness.inflections import LOBE, inflections
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.tables import HullState
 
@@ -162,10 +162,14 @@ class FairReport(ShownAsText):
             yield from (note for note in self.edit.notes if note != self.found.note)
         if self.edit is not None and self.edit.mended:
             yield f"{len(self.edit.mended)} curves were given a point to close a gap"
-        lost = [each.line for each in self.lines if each.inflections[1] < each.inflections[0]]
-        if lost:
-            more = f" and {len(lost) - _SHOWN} more" if len(lost) > _SHOWN else ""
-            yield f"fewer inflections on {', '.join(lost[:_SHOWN])}{more}"
+        change = {each.line: each.inflections[1] - each.inflections[0] for each in self.lines}
+        for word, names in (
+            ("more", [name for name, by in change.items() if by > 0]),
+            ("fewer", [name for name, by in change.items() if by < 0]),
+        ):
+            if names:
+                more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+                yield f"{word} inflections on {', '.join(names[:_SHOWN])}{more}"
         yield (
             "waves longer than about six points are shape to it, and stay; so does a wrong "
             "offset, which is to be found first"
@@ -227,7 +231,7 @@ class FairReport(ShownAsText):
                 f"LCB {1e3 * (self.lcb[1] - self.lcb[0]):+.2f} mm"
             )
         counts = np.array([each.inflections for each in self.lines]).reshape(-1, 2).sum(axis=0)
-        yield f"inflections  {counts[0]} > {counts[1]}"
+        yield f"inflections  {counts[0]} > {counts[1]}, between bends of {LOBE:g} degree or more"
         yield f"largest gap  {1e3 * self.largest_gap:.2f} mm"
         moved = [each for each in self.lines if each.moved >= _ALIKE]
         if moved:

@@ -24,6 +24,7 @@ from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError, GeometryError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.fairness.criteria import FairnessRecord, OffsetDeviations, criteria
+from assoc_hull.geometry.fairness.inflections import LOBE
 from assoc_hull.geometry.splines.curve_pieces import PiecewiseCurves, SplinePieces
 from assoc_hull.model.gaps import watched_on
 from assoc_hull.model.objects import Curve, Line
@@ -167,7 +168,11 @@ class FairnessTable(ShownAsText):
         return "\n".join([*lines, *self._words()])
 
     def _words(self) -> Iterator[str]:
-        """Say where lines are unfair."""
+        """Say where lines are unfair, and what the count is of."""
+        yield (
+            "inflections: all changes of the sign of curvature, also those of the faintest waves; "
+            f"`fair` counts those between bends of {LOBE:g} degree or more"
+        )
         names = set(self.lines)
         if not self.unfair:
             yield f"no line of {len(names)} is unfair: battens spring as on the lines beside"

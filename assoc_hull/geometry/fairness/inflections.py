@@ -23,7 +23,7 @@ from assoc_hull.geometry.numeric.roots import quadratic_roots
 from assoc_hull.geometry.numeric.vectors import check_normals, dot
 from assoc_hull.geometry.splines.segments import power_coefficients, segment_curve, segment_start
 
-__all__ = ["FairnessRecord", "InflectionPoints", "criteria", "inflections"]
+__all__ = ["LOBE", "FairnessRecord", "InflectionPoints", "criteria", "inflections"]
 
 _STRAIGHT = 1e-9  # rad: a turn below this is the rounding of a straight stretch
 
@@ -60,8 +60,12 @@ class _Parts:
     end: FloatArray
 
 
+LOBE = 0.2
+"""degrees: what turns by less is no lobe, where nothing else is asked for."""
+
+
 def inflections(
-    batch: SplineBatch, normals: ArrayLike, lobe_deg: float = 0.2
+    batch: SplineBatch, normals: ArrayLike, lobe_deg: float = LOBE
 ) -> tuple[IntArray, InflectionPoints]:
     """Count the changes of the sign of curvature along each plane curve.
 

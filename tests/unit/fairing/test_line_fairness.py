@@ -137,11 +137,12 @@ def test_a_plane_curve_has_one_record(kind: str) -> None:
 
 
 def test_the_table_prints_one_row_a_curve(table: FairnessTable) -> None:
-    """A head, a row for each curve, how many lines are unfair, and each place where one is."""
+    """A head, a row a curve, what is counted, how many lines are unfair, each place where."""
     lines = str(table).splitlines()
-    assert len(lines) == 1 + len(table) + 1 + 1 + len(table.unfair)
+    assert len(lines) == 1 + len(table) + 1 + 2 + len(table.unfair)
     assert lines[0].split()[0] == "curve"
-    assert "unfair" in lines[len(table) + 2]
+    assert "all changes of the sign" in lines[len(table) + 2]
+    assert "unfair" in lines[len(table) + 3]
 
 
 @pytest.mark.parametrize(
