@@ -1,4 +1,4 @@
-"""What fairing tells of the lines: those that gain inflections are named as those that lose some."""
+"""What fairing tells of the lines: also those that gain inflections are named."""
 
 import attrs
 
