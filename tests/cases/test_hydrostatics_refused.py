@@ -238,12 +238,23 @@ def test_a_right_table_that_changes_quickly_is_told_and_not_refused(
     assert stated > 0.003 * table[2].volume
 
 
-@pytest.mark.parametrize("wrong", [31.0, 49.6])
-def test_a_section_that_stands_alone_is_refused_by_name(tmp_path: Path, wrong: float) -> None:
-    """Half as broad as it is: among parallel ones, and on the slope of the fore body."""
-    file = table_file(tmp_path, supply_vessel, STATIONS, wrong)
+def test_a_section_that_stands_alone_is_refused_by_name(tmp_path: Path) -> None:
+    """Half as broad as it is, on the slope of the fore body."""
+    file = table_file(tmp_path, supply_vessel, STATIONS, 49.6)
     hull = ah.read(file, length=60.0, draught=5.0, deck="closed")
-    with pytest.raises(ah.errors.BadInputError, match=f"ST {wrong:g} has .* m2 where its neigh"):
+    with pytest.raises(ah.errors.BadInputError, match=r"ST 16\.5333 has .* m2 where its neigh"):
+        hull.hydrostatics()
+
+
+def test_a_section_that_stands_alone_among_parallel_ones_is_refused_at_import(
+    tmp_path: Path,
+) -> None:
+    """By name: it does not reach the flat of side; whoever accepts it is told again."""
+    file = table_file(tmp_path, supply_vessel, STATIONS, 31.0)
+    with pytest.raises(ah.errors.NotSoundError, match="station 31: its section is 50 %"):
+        ah.read(file, length=60.0, draught=5.0, deck="closed")
+    hull = ah.read(file, length=60.0, draught=5.0, deck="closed", accept=True)
+    with pytest.raises(ah.errors.BadInputError, match=r"ST 10\.3333 has a kink"):
         hull.hydrostatics()
 
 
