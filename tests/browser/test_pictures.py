@@ -31,3 +31,24 @@ def test_a_shoulder_in_hand_is_drawn_for_the_documentation(open_page: Open, hull
     path = FOLDER / "page.png"
     image.quantize(96, dither=Image.Dither.NONE).save(path, optimize=True)
     assert path.stat().st_size < LARGEST
+
+
+def test_a_point_that_is_dragged_is_a_short_moving_picture(open_page: Open, hull: ah.Hull) -> None:
+    """Out and back: what follows moves in each frame, and in the last it is as in the first."""
+    hand = open_page(hull, viewport={"width": 1280, "height": 760})
+    hand.page.get_by_role("button", name="Fine").click()
+    x, y = hand.press(POINT)
+    frames = list[Image.Image]()
+    for away in (0, 3, 6, 9, 12, 14, 12, 9, 6, 3):
+        hand.to(x + away, y)
+        shot = Image.open(io.BytesIO(hand.page.screenshot())).convert("RGB")
+        frames.append(shot.crop((0, 40, 1016, 735)).resize((760, 520), Image.Resampling.LANCZOS))
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.settled()
+    assert len({each.tobytes() for each in frames}) > 4
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    path, colours = FOLDER / "page_drag.gif", frames[5].quantize(72, dither=Image.Dither.NONE)
+    small = [each.quantize(palette=colours, dither=Image.Dither.NONE) for each in frames]
+    small[0].save(path, save_all=True, append_images=small[1:], duration=160, loop=0, optimize=True)
+    assert path.stat().st_size < 2 * LARGEST
