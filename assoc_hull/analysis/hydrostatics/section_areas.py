@@ -11,6 +11,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.hydrostatics.floating_body import (
+    FloatingBody,
     FloatingPosition,
     StationAreas,
     require_afloat,
@@ -368,9 +369,14 @@ def sectional_areas(hull: HasState, position: FloatingPosition) -> StationAreas:
     OutOfRangeError
         It does not float there.
     """
-    body = body_of(hull)
-    planes = require_afloat([position], body.limits, hull.state.particulars.length)
+    body, planes = _afloat(hull, position)
     return body.stations(planes)
+
+
+def _afloat(hull: HasState, position: FloatingPosition) -> tuple[FloatingBody, FloatingPlanes]:
+    """Give what is measured of a hull, and the plane that it floats at."""
+    body = body_of(hull)
+    return body, require_afloat([position], body.limits, hull.state.particulars.length)
 
 
 _COURSE = 400
@@ -397,17 +403,16 @@ def sectional_area_course(hull: HasState, position: FloatingPosition) -> FloatAr
 
     Examples
     --------
+    >>> import assoc_hull as ah
     >>> from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
     >>> from assoc_hull.analysis.hydrostatics.section_areas import sectional_area_course
-    >>> from assoc_hull.shipped.wigley import wigley
-    >>> course = sectional_area_course(wigley(), FloatingPosition(6.25, 6.25))
+    >>> course = sectional_area_course(ah.examples.wigley(), FloatingPosition(6.25, 6.25))
     >>> course[[0, -1]].round(6).tolist()
     [[0.0, 0.0], [100.0, 0.0]]
     """
-    body = body_of(hull)
+    body, planes = _afloat(hull, position)
     if not isinstance(body, Flotation):
         return None
-    planes = require_afloat([position], body.limits, hull.state.particulars.length)
     curve = area_curve(body, planes)
     # Beside each break, as the curve may jump there.
     near = np.concatenate([curve.breaks - _SAME, curve.breaks + _SAME])

@@ -334,10 +334,12 @@ def _areas(hull: HasState, design: HydrostaticTable) -> BookPart:
         tuple((name, float(x), float(x) / length, float(each), float(each) / most)
               for name, x, each in zip(found.names, found.x, area, strict=True)),
     )  # fmt: skip
-    course = sectional_area_course(hull, design.positions[0])
-    curve = BookPicture(
-        "Sectional-area curve", lambda: sectional_area_curve(found, design, course=course)
-    )
+
+    def drawn() -> Figure:
+        course = sectional_area_course(hull, design.positions[0])
+        return sectional_area_curve(found, design, course=course)
+
+    curve = BookPicture("Sectional-area curve", drawn)
     return BookPart("areas", "Sectional areas", (), (table,), (curve,))
 
 
