@@ -138,6 +138,27 @@ def test_hydrostatics_tell_what_changed_since_the_session_began(
     assert box.locator("svg rect").count() > 2
 
 
+def test_a_button_stays_under_the_pointer_while_an_answer_comes(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """What an answer shows above waits until the button is let go, and then is shown."""
+    hand = open_page(hull)
+    box, numbers = opened(hand, "Fair"), opened(hand, "Hydrostatics")
+    numbers.locator("table").wait_for()
+    hand.ask("p => p.panel.numbers.list.replaceChildren()")
+    place = box.get_by_text("List the waviest lines")
+    place.hover()
+    hand.page.mouse.down()
+    hand.ask("p => p.panel.numbers.ask({t: 'hydrostatics'}, 'Measuring …')")
+    at = place.bounding_box()
+    hand.until("p => p.panel.waiting.length > 0")
+    assert place.bounding_box() == at
+    place.hover()  # what was asked has moved it
+    hand.page.mouse.up()
+    for each in (box, numbers):
+        each.locator("table").wait_for()
+
+
 def test_a_hull_that_is_sound_is_said_to_be(open_page: Open, hull: ah.Hull) -> None:
     """The list tells when nothing is wrong."""
     hand = open_page(hull)

@@ -135,11 +135,7 @@ export class Page {
       this.speaker.say(`${message.author} has made: ${message.name}`);
     } else if (message.t === "answer") {
       if (message.id === this.turning) this.say(this.back ? `Taken back: ${store.history.redo}.` : `Made again: ${store.history.undo}.`);
-      for (const each of this.panel.askers) {
-        const mine = each.asked === message.id;
-        each.answer(message);
-        if (mine) each.bring();
-      }
+      this.panel.answer(message);
     }
     else if (message.t === "problem") {
       if (!this.panel.askers.some((each) => each.problem(message))) {
@@ -235,7 +231,7 @@ export class Page {
       if (view.stale.overlay) paintOverlay(view, this.ink);
     }
     placeBubble(this);
-    if (this.panelStale) {
+    if (this.panelStale && !this.panel.pressed) {
       this.panelStale = false;
       this.panel.render();
       this.bar.render();

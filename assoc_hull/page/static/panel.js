@@ -34,6 +34,15 @@ export class Panel {
       element.append(box);
       return [title, body];
     }));
+    /** While something in it is pressed it stands still: what moved away under the pointer would not be clicked. */
+    this.pressed = false;
+    /** @type {any[]} */
+    this.waiting = [];
+    element.addEventListener("pointerdown", () => this.pressed = true);
+    // A button that is let go elsewhere is known by the next move.
+    for (const event of ["pointerup", "pointercancel", "pointermove"]) element.ownerDocument.addEventListener(event, (each) => {
+      if (this.pressed && !(/** @type {PointerEvent} */ (each).buttons)) setTimeout(() => this.#release());
+    }, true);
     /** @type {HTMLInputElement[]} */
     this.fields = [];
     this.shownRow = /** @type {number | null | undefined} */ (undefined);
@@ -107,6 +116,22 @@ export class Panel {
     this.#edit();
     this.points.render();
     for (const each of this.askers) each.render();
+  }
+
+  /** An answer is shown by those it is for. @param {any} message */
+  answer(message) {
+    if (this.pressed) this.waiting.push(message);
+    else for (const each of this.askers) {
+      const mine = each.asked === message.id;
+      each.answer(message);
+      if (mine) each.bring();
+    }
+  }
+
+  #release() {
+    this.pressed = false; // after the click
+    for (const message of this.waiting.splice(0)) this.answer(message);
+    this.page.store.changed("panel");
   }
 
   /** Opens a part, and gives it the focus. @param {string} title */
