@@ -42,7 +42,7 @@ export class Panel {
     // A button that is let go elsewhere is known by the next move.
     for (const event of ["pointerup", "pointercancel", "pointermove"]) element.ownerDocument.addEventListener(event, (each) => {
       if (this.pressed && !(/** @type {PointerEvent} */ (each).buttons)) setTimeout(() => this.#release());
-    }, true);
+    }, {capture: true, signal: page.options.within});
     /** @type {HTMLInputElement[]} */
     this.fields = [];
     this.shownRow = /** @type {number | null | undefined} */ (undefined);
