@@ -200,7 +200,7 @@ def settle_plan(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
     there: SettledPlan | None = found
     rounds, searched = 1, 0
     while best.unmet > 1.0 and rounds < _ROUNDS + searched:
-        if (nudged := _nudged(carry, found)) is not None:
+        if (nudged := _nudged(carry, found, before)) is not None:
             return attrs.evolve(nudged, rounds=rounds)
         aims, rounds, again = aims.corrected(found.miss), rounds + 1, found.faired
         start = None if found.aimed is None else _hull(found.aimed).amplitudes
@@ -276,26 +276,101 @@ _STRAY = 1e-8
 """m or degrees: what is off by more after one nudge takes part in the next."""
 
 
-def _nudged(carry: StagedCarry, found: SettledPlan) -> SettledPlan | None:
-    """Nudge the hull that a plan has carried so that all set values are met; None if none does it.
+@attrs.frozen(eq=False)
+class _Held:
+    """Targets that are held while set values are met.
+
+    Attributes
+    ----------
+    outputs : Outputs
+    targets, sizes : (m,)
+        `sizes` are those by which misses count as much as those of set values, m.
+    free : tuple of str
+        What is free for it: parameters that are at none of their bounds.
+    """
+
+    outputs: Outputs
+    targets: FloatArray
+    sizes: FloatArray
+    free: tuple[str, ...]
+
+    @classmethod
+    def of(cls, found: SettledPlan, before: FloatArray) -> _Held | None:
+        """Take what a plan has reached; None if a nudge cannot hold it."""
+        aimed, reach = found.aimed, found.carry.ask.reach
+        named = reach is not None and all(isinstance(each, str) for each in reach.free)
+        if aimed is None or reach is None or not aimed.reached or not named:
+            return None
+        outputs = Outputs.of(found.carry.edit.state, tuple(reach.targets))
+        targets = np.array(list(reach.targets.values()))
+        free = tuple(name for name in aimed.free if name not in aimed.active)
+        return cls(outputs, targets, _sizes(before, targets) * (_RESIDUAL / _STRAY), free)
+
+    def misses(self, state: HullState, like: HullState | None) -> dict[str, float]:
+        """Give by how much targets are missed, m; `like` lends its layout."""
+        off = (self.targets - self.outputs.values(state, like=like)) / self.sizes
+        return dict(zip(self.outputs.names, off.tolist(), strict=True))
+
+    def inverse(self, base: NudgeBase, count: int) -> FloatArray:
+        """Give the amplitudes by misses: of `count` values that are set, and of the targets.
+
+        What is set goes by what it is missed; what is free takes out what that does to targets,
+        and what is missed of these, by the least change.
+        """
+        at = Reached(base.state, base.amplitudes, base, self.outputs, base.state)
+        usual = np.array([each.usual for each in base.maps.free[count:]])
+        rates = at.jacobian / self.sizes[:, None]
+        back = usual[:, None] * np.linalg.pinv(rates[:, count:] * usual)
+        head = np.eye(count, count + len(self.targets))
+        return np.vstack([head, np.hstack([-back @ rates[:, :count], back])])
+
+    def made_up(self, found: SettledPlan, by: FloatArray) -> SettledPlan:
+        """Take what is free as it was changed, and targets as they are on the hull of the edit."""
+        aimed, state = found.aimed, found.carry.edit.state
+        assert aimed is not None, "what is held was reached"
+        change = dict(zip(self.free, by.tolist(), strict=True))
+        more = np.array([change.get(name, 0.0) for name in aimed.free])
+        values = self.outputs.values(state)
+        off = (values - self.targets) / self.sizes * (_RESIDUAL / _STRAY)
+        size = [float(np.linalg.norm(each)) for each in (aimed.amplitudes, aimed.amplitudes + more)]
+        step = attrs.evolve(
+            aimed.steps[-1], way="exact", residual=float(np.abs(off).max()),
+            change=aimed.change * (size[1] / size[0] if size[0] else 1.0),
+        )  # fmt: skip
+        told = attrs.evolve(
+            aimed, amplitudes=aimed.amplitudes + more, targets=self.targets, values=values,
+            steps=(*aimed.steps, step),
+        )  # fmt: skip
+        freeze(told.amplitudes, values, self.targets)
+        named = {name: found.values[name] + each for name, each in change.items()}
+        return attrs.evolve(found, aimed=told, off=off, values={**found.values, **named})
+
+
+def _nudged(
+    carry: StagedCarry, found: SettledPlan, before: FloatArray | None
+) -> SettledPlan | None:
+    """Nudge the hull that a plan has carried so that all is met; None if no nudge does it.
 
     The map of what is missed, no larger than the misses are, follows the last one of the plan.
     """
     ask = carry.ask
-    if ask.reach is not None or ask.layout.blend == "paper":
-        return None  # targets are sought anew in each round; maps of ratios are to stay few
+    held = None if before is None else _Held.of(found, before)
+    if ask.layout.blend == "paper" or (ask.reach is not None and held is None):
+        return None  # maps of ratios are to stay few; what is no number cannot be added to
     state, stages = copy_state(carry.edit.state), carry.edit.stages
     room = AdmissibleValues.of(state, ask.layout, ask.tolerance)
     try:
-        base, by = _nudge_for(room, ask, found.miss)
+        base, by = _nudge_for(room, ask, found.miss, held)
         last, (whole, certificate) = carry.carried[-1], base.maps.certified(by)
         carry.carry(room, VariationMap(()), {}, by=base.nudge_to(by))
+        met = attrs.evolve(found, miss=_misses(carry.edit.state, ask))
+        if held is not None:
+            met = held.made_up(met, by[len(by) - len(held.free) :])
     except AssocHullError:
         carry.edit.take_back(stages)
         return None
     del carry.carried[-1]
-    met = attrs.evolve(found, miss=_misses(carry.edit.state, ask))
-    if met.unmet > 1.0:
+    if met.unmet > 1.0 or not _within(met):
         carry.edit.take_back(stages)
         return None
     carry.carried[-1] = CarriedMap(
@@ -305,38 +380,67 @@ def _nudged(carry: StagedCarry, found: SettledPlan) -> SettledPlan | None:
     return met
 
 
+def _within(found: SettledPlan) -> bool:
+    """Tell whether what is free is within its bounds."""
+    reach = found.carry.ask.reach
+    limits = {} if reach is None else reach.bounds
+    return all(low <= found.values[name] <= high for name, (low, high) in limits.items())
+
+
 def _nudge_for(
-    room: AdmissibleValues, ask: VariationRequest, missed: Mapping[str, float]
+    room: AdmissibleValues,
+    ask: VariationRequest,
+    missed: Mapping[str, float],
+    held: _Held | None,
 ) -> tuple[NudgeBase, FloatArray]:
-    """Find from where, and by which amplitudes of what is missed, all set values are met.
+    """Find from where, and by which amplitudes of what is missed and free, all is met.
 
     Raises
     ------
     BadInputError
         No small change of these does it.
     """
-    bare, miss, free = attrs.evolve(ask, values={}, layers=()), missed, tuple[str, ...]()
-    # What was met at first and is lost to the changes of others takes part from then on.
-    while more := tuple(n for n, each in miss.items() if abs(each) > _STRAY and n not in free):
-        free = (*free, *more)
-        named = [Freedom.named(n, room.present[n], room.parent.length) for n in free]
+    bare, free = attrs.evolve(ask, values={}, layers=()), () if held is None else held.free
+    names, more = tuple[str, ...](), _astray(missed)
+    while True:
+        names = (*names, *more)
+        named = [Freedom.named(n, room.present[n], room.parent.length) for n in (*names, *free)]
         base = NudgeBase.of(HullMaps(room, bare, {}, tuple(named)))
-        by, miss = _tried_nudges(base, ask, free, missed)
-    return base, by
+        by, miss = _tried_nudges(base, ask, names, missed, held)
+        # What was met at first and is lost to the changes of others takes part from then on.
+        more = tuple(name for name in _astray(miss) if name not in names)
+        if not more:
+            return base, by
+
+
+def _astray(missed: Mapping[str, float]) -> tuple[str, ...]:
+    """Name the values that are off."""
+    return tuple(name for name, each in missed.items() if abs(each) > _STRAY)
 
 
 def _tried_nudges(
-    base: NudgeBase, ask: VariationRequest, free: tuple[str, ...], missed: Mapping[str, float]
+    base: NudgeBase,
+    ask: VariationRequest,
+    names: tuple[str, ...],
+    missed: Mapping[str, float],
+    held: _Held | None,
 ) -> tuple[FloatArray, Mapping[str, float]]:
-    """Find the amplitudes by which what is free is met, and what all values are missed by then."""
-    aims, miss = _Aims(free, np.zeros(len(free)), np.eye(len(free))), missed
+    """Find the amplitudes by which all is met, and what set values are missed by then."""
+    count, like = len(names), base.state
+    aims, miss = _Aims(names, np.zeros(count), np.eye(count)), missed
+    off: dict[str, float] = {}
+    if held is not None:
+        off = held.misses(base.state, like)
+        every = (*names, *off)
+        aims = _Aims(every, np.zeros(len(base.maps.free)), held.inverse(base, count))
     for _ in range(_TRIALS):
-        aims = aims.corrected(miss)
+        aims = aims.corrected({**miss, **off})
         state = base.nudged(aims.aim) if base.near(aims.aim) else None
         if state is None:
             break
         miss = _misses(state, ask)
-        if max(abs(miss[name]) for name in free) <= _STRAY:
+        off = {} if held is None else held.misses(state, like)
+        if max(abs({**miss, **off}[name]) for name in aims.names) <= _STRAY:
             return aims.aim, miss
     raise BadInputError("no nudge meets the values", "in vary", "carry the hull in full")
 

@@ -101,6 +101,34 @@ def test_what_lofting_misses_is_corrected(
     assert variant.hull.check() == ()
 
 
+@pytest.mark.parametrize("nudged", [True, False])
+@pytest.mark.parametrize("fair", [False, True])
+def test_what_lofting_misses_is_corrected_while_targets_are_held(
+    series60_70: ah.Hull, monkeypatch: pytest.MonkeyPatch, nudged: bool, fair: bool
+) -> None:
+    """Set values are met to 1e-6, targets to 1e-8, within bounds, by the same small changes."""
+    if not nudged:
+        monkeypatch.setattr(reach_targets, "_TRIALS", 0)
+    now = series60_70.hydrostatics()
+    asked, free = {"breadth": 17.25, "bilge_radius": 1.88}, ["fore_shift", "aft_shift"]
+    targets = {"volume": 1.005 * now.volume, "lcb": now.lcb - 0.1}
+    variant = series60_70.vary(
+        set=asked, reach=targets, free=free, bounds={"aft_shift": (-9.0, 9.0)}, fair=fair
+    )
+    report, after = variant.report, variant.hull.hydrostatics()
+    assert (report.rounds == 1) == nudged
+    assert dict(variant.hull.measure(only=list(asked))) == pytest.approx(asked, abs=1e-6)
+    assert {name: getattr(after, name) for name in targets} == pytest.approx(targets, rel=1e-8)
+    assert variant.hull.check() == ()
+    assert report.aim is not None and report.aim.reached
+    assert report.aim.values.tolist() == pytest.approx(list(targets.values()), rel=1e-8)
+    assert report.aim.residual <= 1e-9 and abs(report.aim.amplitudes[1]) <= 9.0
+    again = series60_70.vary(
+        set=asked | dict(zip(free, report.aim.amplitudes.tolist(), strict=True)), fair=fair
+    )
+    assert again.hull.hydrostatics().lcb == pytest.approx(after.lcb, abs=2e-3)
+
+
 @pytest.mark.parametrize("fair", [False, True])
 def test_a_nudge_to_what_is_asked_for_is_as_fair_as_maps_with_corrected_aims(
     monkeypatch: pytest.MonkeyPatch, fair: bool
