@@ -33,7 +33,7 @@ from assoc_hull.model.dirty_nodes import DirtyNodes
 from assoc_hull.model.index import Index
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.node import Node
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import HullState, Particulars
 
 __all__ = ["Transaction"]
 
@@ -110,6 +110,7 @@ class Transaction:
         self._begun = self._taken_back = False
         self._stages: list[_Stage] = []
         self.notes: list[str] = []  # what is said of its stages together
+        self._sized: Particulars | None = None  # as before lines were carried
 
     @property
     def report(self) -> EditReport | None:
@@ -171,6 +172,21 @@ class Transaction:
                 self._stages.append(_Stage(self.journal, step, self.document.known_index))
                 self.journal = Journal()
         self.pending = Pending(stopped=self.pending.stopped)
+
+    def resized(self) -> None:
+        """Let the report say what the particulars are at the end: lines are carried now."""
+        self._sized = self._sized or self.state.particulars
+
+    def _sizes(self) -> list[str]:
+        """Say what the particulars are after all stages, if lines were carried."""
+        if (before := self._sized) is None:
+            return []
+        size = self.state.particulars
+        said = "stay as they are" if attrs.evolve(size, name=before.name) == before else "are now"
+        return [
+            f"the particulars {said}: length {size.length:g}, breadth {size.breadth:g}, "
+            f"depth {size.depth:g}, draught {size.draught:g} m"
+        ]
 
     @property
     def stages(self) -> int:
@@ -391,12 +407,14 @@ class Transaction:
                 return
         if self._stages:
             self.end_stage()
+            self.notes += self._sizes()
             stages = [each.step for each in self._stages]
             step = joined_step(
                 self.state, self.name, stages,
                 notes=tuple(self.notes), led=self.led, followed=self.followed,
             )  # fmt: skip
         else:
+            self.pending.notes += self._sizes()
             step = update(self.document, self.name, self.journal, self.pending, self.settings)
         self._refuse_lost_tunnels()
         step.script = Script.of(self.script, self.settings, self.varied, self.varied_before)

@@ -19,7 +19,7 @@ from assoc_hull.model.tables import HullState, copy_state
 from assoc_hull.study.design import StudyDesign
 from assoc_hull.study.variant_numbers import ParentNumbers, VariantNumbers
 from assoc_hull.variation.aiming.outputs import Outputs
-from assoc_hull.variation.aiming.reach_targets import settle_plan
+from assoc_hull.variation.aiming.reach_targets import settle_plan, targets_before
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.carrying.carry_stages import StagedCarry
 from assoc_hull.variation.carrying.hull_maps import HullMaps, LaidMap
@@ -212,7 +212,7 @@ class StudyParent:
             with Transaction(document, name) as edit:
                 plan = class_plan(values, layers=bool(layers))
                 carry = StagedCarry(edit, ask, plan, refines=not isinstance(error, FoldError))
-                settle_plan(carry, maps.room)
+                settle_plan(carry, maps.room, targets_before(maps.room, ask))
         except AssocHullError:
             raise error from None
         return document, carry.certificate

@@ -26,7 +26,7 @@ from assoc_hull.errors import (
 from assoc_hull.graph.derived import Objects
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.aiming.outputs import Outputs
-from assoc_hull.variation.aiming.reach_targets import SettledPlan, settle_plan
+from assoc_hull.variation.aiming.reach_targets import SettledPlan, settle_plan, targets_before
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.carrying.carry_stages import DoneStage, StagedCarry
 from assoc_hull.variation.comparing.line_fairness import (
@@ -77,7 +77,7 @@ def choose_plan(
     AssocHullError
         What is wrong with a single value, or with targets.
     """
-    before = parent_fairness(edit.state)
+    before, targets = parent_fairness(edit.state), targets_before(room, ask)
     lines = None
     if ask.fair:
         if not isinstance(ask.fair, bool):
@@ -108,7 +108,7 @@ def choose_plan(
                     continue
                 if best and worst >= min(each[0] for each in best):
                     continue
-            found = settle_plan(carry, room)
+            found = settle_plan(carry, room, targets)
         except _OF_TARGETS:
             raise
         except AssocHullError as error:
@@ -126,7 +126,7 @@ def choose_plan(
     for _, _, carry in sorted(best, key=lambda each: each[:2]):
         try:
             # What is done is shared: what stands of it is not done anew.
-            found = settle_plan(attrs.evolve(carry, carried=[], refused=None), room)
+            found = settle_plan(attrs.evolve(carry, carried=[], refused=None), room, targets)
         except AssocHullError as error:
             refusal = refusal or (error, carry)
             continue
@@ -256,7 +256,7 @@ def _goes(
     """Tell whether a request is taken, beside the lines of the parent."""
     plan = class_plan(ask.values, layers=bool(ask.layers))
     try:
-        settle_plan(StagedCarry(edit, ask, plan), room)
+        settle_plan(StagedCarry(edit, ask, plan), room, None)  # without targets
     except AssocHullError:
         return False
     return ask.accept or not beyond_fair(_judged(edit, before)[0])

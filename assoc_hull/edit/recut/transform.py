@@ -129,12 +129,12 @@ def transform(
     edit.pending.alone = True
     planes = carry_planes(state, space, np.flatnonzero(driver), follow=follow, levels=levels)
     work = carry_points(edit.maker, space, planes, driver)
-    size = state.particulars
+    edit.resized()
     if particulars is not None:
         edit.journal.set(state.settings.particulars, [0], [particulars])
     went = carry_attachments(state, edit.journal, space)
     if not _anything(state, work):
-        _tell(edit, work, 0, size)
+        _tell(edit, work, 0)
         return 0
     edit.pending.structural = True
     edit.pending.features = carry_features(state, space, np.inf if keep_features else tolerance)
@@ -154,7 +154,7 @@ def transform(
     move_planes(edit.maker, planes)  # first, so that lines that come back find their new ones
     take_out_lines(edit, work, may_go=lines_may_go)
     _publish(edit, work, turned)
-    _tell(edit, work, added, size)
+    _tell(edit, work, added)
     edit.pending.notes += kept + went
     return added
 
@@ -358,7 +358,7 @@ def _remove(edit: Transaction, work: TransformationState) -> None:
     edit.pending.gone += [str(keys[row]) for row in rows if state.rows.sort[row] == Sort.CROSSING]
 
 
-def _tell(edit: Transaction, work: TransformationState, added: int, before: Particulars) -> None:
+def _tell(edit: Transaction, work: TransformationState, added: int) -> None:
     """Put into the report what was carried and what was cut again."""
     state, pending = edit.state, edit.pending
     every = {*state.live("lines").tolist(), *work.anew}
@@ -371,9 +371,3 @@ def _tell(edit: Transaction, work: TransformationState, added: int, before: Part
         pending.notes.append(f"{state.lines.name[line]} is a curve in space now, {far} off a plane")
     if added:
         pending.notes.append(f"{added} adopted points hold the drivers to their images")
-    size = state.particulars
-    said = "stay as they are" if size == before else "are now"
-    pending.notes.append(
-        f"the particulars {said}: length {size.length:g}, breadth {size.breadth:g}, "
-        f"depth {size.depth:g}, draught {size.draught:g} m"
-    )

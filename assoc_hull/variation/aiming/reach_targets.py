@@ -45,6 +45,7 @@ __all__ = [
     "measure_requested",
     "problem_of",
     "settle_plan",
+    "targets_before",
 ]
 
 # --------------------------------------------------------------------------------------
@@ -170,7 +171,23 @@ class _Aims:
         return _Aims(self.names, self.aim, self.inverse)
 
 
-def settle_plan(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
+def targets_before(room: AdmissibleValues, ask: VariationRequest) -> FloatArray | None:
+    """Measure the targets (m,) of the parent; None if there are none.
+
+    Raises
+    ------
+    UnknownNameError, BadInputError
+        Targets, or what is free, that the hull has not.
+    """
+    if ask.reach is None:
+        return None
+    freedoms(room, ask, ask.reach)  # refused before anything is carried
+    return Outputs.of(room.state, tuple(ask.reach.targets)).values(room.state)
+
+
+def settle_plan(
+    carry: StagedCarry, room: AdmissibleValues, before: FloatArray | None
+) -> SettledPlan:
     """Carry out a plan so that the set values are met, and targets are reached if there are any.
 
     Parameters
@@ -178,7 +195,9 @@ def settle_plan(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
     carry : StagedCarry
         The plan; when this returns, the hull of its edit is the varied one.
     room : AdmissibleValues
-        What is measured of the parent.
+        What is measured of the parent; its tables may be those of the edit.
+    before : (m,) or None
+        Targets as the parent has them, by `targets_before`.
 
     Raises
     ------
@@ -191,10 +210,6 @@ def settle_plan(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
     """
     ask, aims, start = carry.ask, _Aims.of(carry.ask), None
     carry.base = room
-    before = None
-    if ask.reach is not None:
-        freedoms(room, ask, ask.reach)  # refused before anything is carried
-        before = Outputs.of(room.state, tuple(ask.reach.targets)).values(room.state)
     best = found = _attempt(carry, aims.values, before, start)
     _refuse_jump(found, room)
     there: SettledPlan | None = found

@@ -155,6 +155,17 @@ def test_what_is_set_holds_beside_what_is_reached(parent: ah.Hull) -> None:
     assert [each.name for each in found.report.targets] == ["draught"]
 
 
+def test_a_target_is_told_from_what_the_parent_has_whichever_plan_reaches_it() -> None:
+    """A second plan is not measured by what the first one has left of the hull."""
+    parent = ah.examples.series60(0.6)
+    found = parent.vary(reach={"volume": 9000.0}, free=["draught", "breadth"])
+    assert found.report.aim is not None
+    assert found.report.aim.before.tolist() == [parent.hydrostatics().volume]
+    size = found.hull.particulars
+    [told] = [each for each in found.report.edit.notes if each.startswith("the particulars are")]
+    assert f"breadth {size.breadth:g}, depth {size.depth:g}, draught {size.draught:g} m" in told
+
+
 def test_what_the_hull_has_already_changes_nothing(parent: ah.Hull) -> None:
     """Targets that are met are no step."""
     volume = parent.hydrostatics().volume

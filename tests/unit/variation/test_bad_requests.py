@@ -18,6 +18,7 @@ from assoc_hull.errors import (
     UnknownNameError,
     WrongTypeError,
 )
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation import plan_choice
 from assoc_hull.variation.aiming.reach_targets import SettledPlan, settle_plan
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
@@ -343,10 +344,12 @@ def test_targets_that_no_plan_reaches_are_refused_with_what_the_values_give(
 ) -> None:
     """It is told that the values by themselves can be had, and at which targets they arrive."""
 
-    def without_targets(carry: StagedCarry, room: AdmissibleValues) -> SettledPlan:
+    def without_targets(
+        carry: StagedCarry, room: AdmissibleValues, before: FloatArray | None
+    ) -> SettledPlan:
         if carry.ask.reach is not None:
             raise BadInputError("a line folds", "in vary", "ask for less")
-        return settle_plan(carry, room)
+        return settle_plan(carry, room, before)
 
     monkeypatch.setattr(plan_choice, "settle_plan", without_targets)
     hull = ah.examples.wigley()

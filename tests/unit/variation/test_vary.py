@@ -120,9 +120,11 @@ def test_what_lofting_misses_is_corrected_while_targets_are_held(
     assert dict(variant.hull.measure(only=list(asked))) == pytest.approx(asked, abs=1e-6)
     assert {name: getattr(after, name) for name in targets} == pytest.approx(targets, rel=1e-8)
     assert variant.hull.check() == ()
-    assert report.aim is not None and report.aim.reached
+    assert report.aim is not None
+    assert report.aim.reached
     assert report.aim.values.tolist() == pytest.approx(list(targets.values()), rel=1e-8)
-    assert report.aim.residual <= 1e-9 and abs(report.aim.amplitudes[1]) <= 9.0
+    assert report.aim.residual <= 1e-9
+    assert abs(report.aim.amplitudes[1]) <= 9.0
     again = series60_70.vary(
         set=asked | dict(zip(free, report.aim.amplitudes.tolist(), strict=True)), fair=fair
     )
