@@ -8,7 +8,7 @@ planes that went along, values that changed as well.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import attrs
@@ -72,7 +72,7 @@ def folds_outside(vmap: VariationMap, box: FloatArray) -> tuple[str, ...]:
 
 
 def went_along(before: FloatArray, state: HullState) -> tuple[str, ...]:
-    """Give a note on waterlines and buttocks that went with the map, as names may say a height.
+    """Give notes on lines that went with the map, where names may say a height or a place.
 
     Parameters
     ----------
@@ -81,18 +81,38 @@ def went_along(before: FloatArray, state: HullState) -> tuple[str, ...]:
     state : HullState
         The hull afterwards.
     """
-    lines = np.array([
-        line for line in state.live("lines").tolist()
-        if state.family(line).axis in (1, 2) and state.lines.boundary[line] < 0
-    ], np.int64)  # fmt: skip
+    level, place = list[int](), list[int]()
+    for line in state.live("lines").tolist():
+        if state.lines.boundary[line] >= 0:
+            continue
+        if state.family(line).axis in (1, 2):
+            level.append(line)
+        elif _says(state.lines.name[line], float(before[line])):
+            place.append(line)
+    kinds = ("waterlines and buttocks", level), ("sections named by their place", place)
+    return tuple(note for kind, lines in kinds for note in _kept_names(kind, lines, before, state))
+
+
+def _kept_names(
+    kind: str, some: Sequence[int], before: FloatArray, state: HullState
+) -> tuple[str, ...]:
+    lines = np.array(some, np.int64)
     moved = np.abs(state.lines.offset[lines] - before[lines])
     gone = lines[moved > IN_PLANE]
     if not len(gone):
         return ()
     farthest = int(lines[np.nanargmax(moved)])
     name, level = state.lines.name[farthest], float(state.lines.offset[farthest])
-    told = f"{len(gone)} waterlines and buttocks went along and kept their names"
-    return (f"{told}: {name} is at {level:.6g} m",)
+    return (f"{len(gone)} {kind} went along and kept their names: {name} is at {level:.6g} m",)
+
+
+def _says(name: str, offset: float) -> bool:
+    """Tell whether a name ends with the place of its line, m, to the digits that it has."""
+    word = name.rpartition(" ")[2]
+    try:
+        return abs(float(word) - offset) <= 0.5 * 10.0 ** -len(word.partition(".")[2])
+    except ValueError:
+        return False
 
 
 def also_changed(

@@ -29,3 +29,15 @@ def test_changes_below_a_millimetre_are_not_told() -> None:
     """They are what lofting leaves over; absent values are no changes."""
     assert also_changed({"depth": 27.0, "breadth": 50.0}, {"depth": 27.0009}, {}) == ()
     assert also_changed({"depth": 27.0}, {"depth": 26.9989}, {}) != ()
+
+
+def test_sections_named_by_their_place_are_told_where_they_are() -> None:
+    """A section called by its metres stays called so; numbers of stations say no place."""
+    parent = ah.examples.wigley(stations=5, waterlines=4)
+    asked = {"length": 102.0}
+    assert not [each for each in parent.vary(set=asked).report.notes if "named" in each]
+    with parent.edit("names") as edit:
+        edit.rename("ST 1", "ST 25")
+        edit.rename("ST 3", "frame 75.0")
+    told = "2 sections named by their place went along and kept their names"
+    assert f"{told}: frame 75.0 is at 76.5 m" in parent.vary(set=asked).report.notes
