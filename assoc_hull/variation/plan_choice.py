@@ -208,13 +208,15 @@ def _refused(
     leave_out = next(
         (name for name in blamed if _goes(edit, room, _without(ask, name), before)), None
     )
-    part, low, high = 0.0, 0.0, 1.0
+    parts, low, high = list[float](), 0.0, 1.0
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        if _goes(edit, room, _part(ask, room, middle), before):
-            low = part = middle
+        if _goes(edit, room, _part(ask, room, middle), before, in_full=False):
+            low = middle
+            parts.insert(0, middle)
         else:
             high = middle
+    part = next((each for each in parts if _goes(edit, room, _part(ask, room, each), before)), 0.0)
     edit.take_back()
     if not part:
         return error  # one value can hardly be had at all, whatever stands beside it
@@ -251,15 +253,22 @@ def _refused_reach(
 
 def _goes(
     edit: Transaction, room: AdmissibleValues, ask: VariationRequest,
-    before: Mapping[str, LineFairness],
+    before: Mapping[str, LineFairness], *, in_full: bool = True,
 ) -> bool:  # fmt: skip
-    """Tell whether a request is taken, beside the lines of the parent."""
-    plan = class_plan(ask.values, layers=bool(ask.layers))
+    """Tell whether a request is taken, beside the lines of the parent.
+
+    If not `in_full`, whether its first round is: later ones meet the values.
+    """
+    carry = StagedCarry(edit, ask, class_plan(ask.values, layers=bool(ask.layers)), base=room)
     try:
-        settle_plan(StagedCarry(edit, ask, plan), room, None)  # without targets
+        carry.run(ask.values)
+        if beyond_fair(_judged(edit, before)[0]) and not ask.accept:
+            return False
+        if in_full:
+            settle_plan(carry, room, None)  # without targets
     except AssocHullError:
         return False
-    return ask.accept or not beyond_fair(_judged(edit, before)[0])
+    return not in_full or ask.accept or not beyond_fair(_judged(edit, before)[0])
 
 
 def _without(ask: VariationRequest, name: str) -> VariationRequest:
