@@ -116,7 +116,9 @@ class Places {
   /** A name at the edge; where a mark lies on it, farther in along its grid line. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align @param {string} colour */
   edge(text, x, y, align, colour) {
     const away = align === "center" ? [[x, y], [x, y - 14], [x, y - 28], [x + 14, y], [x - 14, y]] : [0, 1, 2, 3].map((n) => [x + 16 * n, y]);
-    const [u, v] = away.find(([p, q]) => !this.dotted(this.box(text, p, q, align))) ?? [x, y];
+    // Letters are less high than their room: a point on the base line is no hindrance to names below it.
+    const clear = (/** @type {number[]} */ [l, t, r, b]) => !this.dotted([l, t + 2, r, b - 2]);
+    const [u, v] = away.find(([p, q]) => clear(this.box(text, p, q, align))) ?? [x, y];
     return this.put(text, u, v, align, colour);
   }
 
