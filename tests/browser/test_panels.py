@@ -296,3 +296,17 @@ def test_what_was_said_gives_way_to_a_hint(open_page: Open, hull: ah.Hull) -> No
     foot = hand.page.locator(".page > footer")
     assert "something was done" in foot.inner_text()
     foot.get_by_text("Click a point or a line").wait_for(timeout=8000)
+
+
+def test_letters_of_the_areas_are_no_larger_than_those_beside(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """On a narrow screen the curve is as wide as the page."""
+    for wide in (390, 800, 1440):
+        hand = open_page(hull, viewport={"width": wide, "height": 844})
+        box = opened(hand, "Hydrostatics")
+        text = box.locator("svg text").first
+        text.wait_for()
+        high = text.bounding_box()
+        assert high is not None
+        assert 8.0 < high["height"] < 20.0
