@@ -347,6 +347,15 @@ def test_nothing_that_moves_lies_over_a_name(open_page: Open, hull: ah.Hull) -> 
     hand.page.keyboard.up("Alt")
     hand.page.keyboard.press("Escape")
     hand.page.mouse.up()
+    hand.ask("p => p.compress(5)")
+    hand.settled()
+    x, y = hand.press(POINT, "half")
+    hand.page.mouse.move(x, y - 3.0)
+    hand.settled()
+    pixel = hand.ask("p => 1000 / (5 * p.views.half.axis.s)")
+    assert f"1 px is {pixel:.0f} mm" in hand.page.locator(".page > footer").inner_text()
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
 
 
 def test_a_refused_pull_tells_no_figures_and_hides_not_how_far_it_is(
@@ -367,8 +376,13 @@ def test_a_refused_pull_tells_no_figures_and_hides_not_how_far_it_is(
     assert top is not None
     low, high = top["y"] + at - 21.0, top["y"] + at - 7.0
     assert box["y"] + box["height"] <= low or box["y"] >= high
-    hand.page.keyboard.press("Escape")
     hand.page.mouse.up()
+    hand.settled()
+    assert hand.page.locator(".bubble").is_visible()
+    ops = [{"op": "pull", "point": POINT, "d": 0.005, "radius": [15.0, 5.0]}]
+    hand.ask("(p, ops) => p.panel.proposal.show('less', ops)", ops)
+    hand.until("p => p.panel.proposal.ready")
+    assert hand.page.locator(".bubble").count() == 0, "another question is looked at now"
 
 
 def test_a_point_is_taken_hold_of_right_after_an_undo(open_page: Open, hull: ah.Hull) -> None:

@@ -67,6 +67,7 @@ export class Asker {
   /** Asks for a ghost: one that comes later for somebody else is not shown. @param {{t: string, [name: string]: unknown}} message @param {string} words */
   askGhost(message, words) {
     this.page.dropGhost();
+    this.page.store.refusal = null; // what was refused before is not what is looked at now
     this.ask(message, words);
     this.page.wanted = this.ghost = this.asked;
     this.page.shower = this;

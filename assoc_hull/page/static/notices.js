@@ -82,7 +82,8 @@ export function writeFoot(page) {
   // What was said is read before it gives way to a hint.
   const said = !held && performance.now() - page.said.at < READ ? page.said.words : "";
   page.status.textContent = store.connection === "connecting" ? "Connecting" : said || hints;
-  const view = page.activeView(), pixel = 1e3 / view.axis.s * ((held ?? page.store.tools).fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
+  // Across the ship, unless the point goes along it only: lengths may be compressed.
+  const view = page.activeView(), pixel = 1e3 / (held?.how === "move" && held.free === "x" ? view.axis.s : view.sy) * ((held ?? page.store.tools).fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
   const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
   page.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.net?.points.get(store.theirs.row)?.name ?? "a point"}` : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
 }
