@@ -313,7 +313,8 @@ class CoincidentPointsError(AssocHullError, ValueError):
         x, y, z = self.position
         return (
             f"two neighbouring points of {self.curve} at ({x:.4f}, {y:.4f}, {z:.4f}) m lie "
-            f"{self.distance:.3g} m apart, closer than {self.limit:.3g} m; delete one of them"
+            f"{self.distance:.3g} m apart, closer than {self.limit:.3g} m; delete one of them, "
+            "or in an edit ask for a smaller move"
         )
 
 

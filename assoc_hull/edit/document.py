@@ -39,10 +39,21 @@ from assoc_hull.model.change import change_of
 from assoc_hull.model.index import Index, build_index, index_columns
 from assoc_hull.model.tables import HasState, HullState, copy_into, copy_state
 
-__all__ = ["SIGNED", "Changed", "Document", "HasDocument", "Keeper", "Label"]
+__all__ = ["SIGNED", "STOPPED", "Changed", "Document", "HasDocument", "Keeper", "Label",
+           "end_if_stopped"]  # fmt: skip
 
 SIGNED: ContextVar[str] = ContextVar("signed", default="")
 """In whose name this thread or task works on hulls; "" for the author of each hull."""
+
+STOPPED: ContextVar[Callable[[], bool]] = ContextVar("stopped", default=bool)
+"""Tells whether what this task does is not wanted any more: a variation ends then as by Ctrl+C."""
+
+
+def end_if_stopped() -> None:
+    """End what this task does, as Ctrl+C would, if it is not wanted any more (`STOPPED`)."""
+    if STOPPED.get()():
+        raise KeyboardInterrupt
+
 
 _HELD = 16
 """So many steps are held in full where a keeper has them all."""

@@ -108,7 +108,7 @@ def describe_fairness(hull: Hull) -> dict[str, Any]:
     ]  # fmt: skip
     wavy.sort(key=lambda each: (-each[1].ratio, -each[1].largest, each[0].name))
     lines = [
-        {"line": record.name, "springs": abs(batten.there), "ratio": batten.ratio, "at": batten.at,
+        {"line": record.name, "springs": batten.there, "ratio": batten.ratio, "at": batten.at,
          "inflections": record.inflections} for record, batten in wavy[:_LINES]
     ]  # fmt: skip
     doctor = hull.doctor(top=_POINTS)
@@ -116,7 +116,7 @@ def describe_fairness(hull: Hull) -> dict[str, Any]:
         "lines": lines,
         "unfair": [
             {"line": each.line, "point": each.point, "residual": each.residual,
-             "ratio": each.ratio} for each in found.unfair[:_POINTS]
+             "expected": each.expected, "ratio": each.ratio} for each in found.unfair[:_POINTS]
         ],
         "points": [
             {"point": each.point, "off": each.off, "score": each.score, "alarm": each.alarm}
@@ -129,6 +129,7 @@ def describe_parameters(hull: Hull, of: str | None = None) -> list[dict[str, Any
     """Give the named parameters of a hull: value, unit, or the reason for none; limits of one."""
     return [
         {"name": each.name, "unit": each.unit, "meaning": each.meaning, "value": each.value,
-         "low": each.fair_low, "high": each.fair_high, "reason": each.reason}
+         "low": each.fair_low, "high": each.fair_high,
+         "least": each.low, "most": each.high, "reason": each.reason}
         for each in list_parameters(hull.state, limits=() if of is None else (of,))
     ]  # fmt: skip

@@ -80,13 +80,13 @@ class Ghost:
     words: dict[str, Any]
 
 
-def ghost_of_variant(copy: Hull, values: Mapping[str, float]) -> Ghost:
-    """Vary a copy of the hull, which is its variant afterwards.
+def ghost_of_variant(copy: Hull, values: Mapping[str, float], *, accept: bool = False) -> Ghost:
+    """Vary a copy of the hull, which is its variant afterwards; `accept` as of `Hull.vary`.
 
     Volume (m3) and LCB (m forward of AP) are those at the design draught.
     """
     number, before = copy.state_number, copy.hydrostatics()
-    report = copy.vary(set=values, in_place=True).report
+    report = copy.vary(set=values, accept=accept, in_place=True).report
     after, state = copy.hydrostatics(), copy.state
     changed = copy.since(number).curves
     curves = changed[state.curves.alive[changed]]

@@ -289,6 +289,7 @@ class Vary:
     id: int = attrs.field(validator=_count)
     set: dict[str, float] = attrs.field(validator=_values)
     apply: bool = attrs.field(default=False, validator=_flag)
+    accept: bool = attrs.field(default=False, validator=_flag)
 
 
 Message = (

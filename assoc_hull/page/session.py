@@ -19,7 +19,7 @@ from typing import Any, ClassVar, Protocol, cast
 import attrs
 import numpy as np
 
-from assoc_hull.edit.document import SIGNED
+from assoc_hull.edit.document import SIGNED, STOPPED
 from assoc_hull.edit.drag import Drag, DragWay, Live
 from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.report import EditReport
@@ -110,6 +110,7 @@ class _Gesture:
 
 
 _Job = tuple[Client, Message | None]
+_STOPPED = ("it was stopped; nothing is changed",)
 _IDLE: _Job = None, None  # type: ignore[assignment]
 _LOOK_AGAIN = 0.2  # s
 _WATCH = 0.5  # s between two looks at what other processes have committed
@@ -139,6 +140,9 @@ class Session:
         # A fair answer may take minutes: hydrostatics do not wait for it, nor the next one asked.
         self._answerer = CopyReaders("assoc-hull page answerer", 2)
         self._newest = dict[tuple[Client, type[Message]], int]()
+        # The variation that is being made, and whether it is still wanted.
+        self._varying: tuple[Client, int | None] | None = None
+        self._wanted = True
         self._opening = hull.snapshot()
         self._shown = hull.state_number
         self._words = net_words(hull.state)
@@ -170,11 +174,16 @@ class Session:
     def _stop(self, client: Client, number: int | None = None) -> None:
         """End the answer to a question, or all that a client waits for, also while others run."""
         with self._awake:
-            self._jobs = deque(
-                (whose, waiting) for whose, waiting in self._jobs
-                if not (whose is client and isinstance(waiting, Question | Export)
-                        and number in (None, waiting.id))
-            )  # fmt: skip
+            self._wanted &= self._varying not in ((client, number), (client, None))
+            given_up = [
+                job for job in self._jobs
+                if job[0] is client and isinstance(job[1], Question | Export)
+                and number in (None, job[1].id)
+            ]  # fmt: skip
+            self._jobs = deque(job for job in self._jobs if job not in given_up)
+        for _, message in given_up:
+            if isinstance(message, Vary) and message.apply:
+                self._refuse(client, 0, 0, _STOPPED, None, message.id)
         for each in (self._reader, self._writer, self._answerer):
             each.stop(client, number)
 
@@ -497,11 +506,30 @@ class Session:
     def _vary(self, client: Client, message: Vary) -> None:
         if message.apply:
             self._require_free(client, "a variation")
-            hull = self.hull
-            self._edit(client, lambda: hull.vary(set=message.set, in_place=True).report.edit,
-                       number=message.id)  # fmt: skip
+            try:
+                self._edit(client, lambda: self._made_variant(client, message), number=message.id)
+            except RefusedEditError as error:
+                self._refuse(client, 0, 0, error.findings, None, message.id)
             return
-        self._show(client, message, lambda copy: _shown(ghost_of_variant(copy, message.set)))
+        accept = message.accept
+        self._show(
+            client, message,
+            lambda copy: _shown(ghost_of_variant(copy, message.set, accept=accept)),
+        )  # fmt: skip
+
+    def _made_variant(self, client: Client, message: Vary) -> EditReport:
+        """Vary the hull itself, unless that is given up meanwhile."""
+        with self._awake:
+            self._varying, self._wanted = (client, message.id), True
+        token = STOPPED.set(lambda: not self._wanted)
+        try:
+            made = self.hull.vary(set=message.set, accept=message.accept, in_place=True)
+        except KeyboardInterrupt:
+            raise RefusedEditError("the variation", _STOPPED) from None
+        finally:
+            STOPPED.reset(token)
+            self._varying = None
+        return made.report.edit
 
     def _steps(self, client: Client, message: AskSteps) -> None:
         _answer(client, message.id, describe_steps(self.hull.document))

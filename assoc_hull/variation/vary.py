@@ -15,7 +15,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.display import ShownAsText
-from assoc_hull.edit.document import Document
+from assoc_hull.edit.document import Document, end_if_stopped
 from assoc_hull.edit.mapped_planes import IN_PLANE
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
@@ -416,6 +416,7 @@ def vary_document(
             parent, edit.state.rows.xyz[edit.state.live("rows")], ask.values, ask.layout
         )
         found, fairness = choose_plan(edit, room, ask)
+        end_if_stopped()
         measured = measure_all(edit.state)
         now = present_values(measured, ask.layout)
         if not ask.accept:

@@ -75,10 +75,12 @@ def test_the_mouse_alone_chooses_a_line_nudges_and_varies(open_page: Open, hull:
     box = opened(hand, "Vary")
     box.get_by_text("List the parameters").click()
     box.locator("select").select_option(label="draught, m")
-    old = float(box.locator("input").input_value())
+    old = float(box.locator("input[inputmode]").input_value())
     for _ in range(2):
         box.get_by_role("button", name="+0.1 m", exact=True).click()
-    assert float(box.locator("input").input_value()) == pytest.approx(old + 0.2, abs=1e-9)
+    assert float(box.locator("input[inputmode]").input_value()) == pytest.approx(
+        old + 0.2, abs=1e-9
+    )
 
 
 def test_what_was_typed_stays_until_enter_or_escape(open_page: Open, hull: ah.Hull) -> None:

@@ -320,3 +320,85 @@ def test_a_ship_with_a_bulb_is_pulled_as_well(open_page: Open, bulk_carrier: ah.
         hand.pull(name, 12.0)
         assert len(bulk_carrier.history) == 1
         assert hand.shows_what_is_published()
+
+
+COVERED = """(p, kind) => { const v = p.views[kind], d = devicePixelRatio,
+  c = new OffscreenCanvas(v.upper.width, v.upper.height),
+  g = c.getContext('2d', {willReadFrequently: true});
+  g.drawImage(v.upper, 0, 0);
+  return v.written.slice(1).filter(({box: [l, t, r, b]}) => g.getImageData(Math.ceil(l * d),
+    Math.ceil(t * d), Math.floor((r - l) * d) - 1, Math.floor((b - t) * d) - 1).data
+    .some((each, i) => i % 4 === 3 && each > 0)).map(({text}) => text); }"""
+"""Names over which something is drawn."""
+
+
+def test_nothing_that_moves_lies_over_a_name(open_page: Open, hull: ah.Hull) -> None:
+    """Neither spikes nor combs, while a point is dragged: they are drawn beside it."""
+    hand = open_page(hull)
+    x, y = hand.press(POINT)
+    hand.page.keyboard.down("Alt")
+    hand.to(x + 8.0, y)
+    hand.settled()
+    assert hand.ask("p => p.store.overlay.frame.curves.size") > 20
+    assert hand.ask(COVERED, "profile") == []
+    foot = hand.page.locator(".page > footer").inner_text()
+    pixel = hand.ask("p => 100 / p.views.body.axis.s")
+    assert f"1 px is {pixel:.1f} mm" in foot, "of the hand as it is, with Alt"
+    hand.page.keyboard.up("Alt")
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.ask("p => p.compress(5)")
+    hand.settled()
+    x, y = hand.press(POINT, "half")
+    hand.page.mouse.move(x, y - 3.0)
+    hand.settled()
+    pixel = hand.ask("p => 1000 / (5 * p.views.half.axis.s)")
+    assert f"1 px is {pixel:.0f} mm" in hand.page.locator(".page > footer").inner_text()
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+
+
+def test_a_refused_pull_tells_no_figures_and_hides_not_how_far_it_is(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """Nothing follows it; the number at the point is not under the reason."""
+    hand = open_page(hull)
+    x, y = hand.press(POINT)
+    hand.page.mouse.move(x + 90.0, y)
+    hand.page.wait_for_selector(".view-body .bubble")
+    edit = hand.page.locator("details:has(h2:text-is('Edit'))").inner_text()
+    assert "refused" in edit
+    assert "m³" not in edit
+    box = hand.page.locator(".bubble").bounding_box()
+    assert box is not None
+    at = hand.ask("p => p.views.body.atPlace(p.store.held.place)[1]")
+    top = hand.page.locator(".view-body").bounding_box()
+    assert top is not None
+    low, high = top["y"] + at - 21.0, top["y"] + at - 7.0
+    assert box["y"] + box["height"] <= low or box["y"] >= high
+    hand.page.mouse.up()
+    hand.settled()
+    assert hand.page.locator(".bubble").is_visible()
+    ops = [{"op": "pull", "point": POINT, "d": 0.005, "radius": [15.0, 5.0]}]
+    hand.ask("(p, ops) => p.panel.proposal.show('less', ops)", ops)
+    hand.until("p => p.panel.proposal.ready")
+    assert hand.page.locator(".bubble").count() == 0, "another question is looked at now"
+
+
+def test_a_point_is_taken_hold_of_right_after_an_undo(open_page: Open, hull: ah.Hull) -> None:
+    """The hull comes anew while the point is pressed: it follows, and nobody else is kept out."""
+    name = "WL 0.35 x ST 17"
+    pull = {"op": "pull", "point": name, "d": 0.01, "radius": [15.2, 6.1]}
+    hand = open_page(hull)
+    hand.ask("(p, ops) => p.apply('a pull that adopts', ops)", [pull])
+    hand.until("p => p.store.history.edits === 1 && p.applying === 0")
+    hand.near(name)
+    x, y = hand.spot(name)
+    hand.page.mouse.move(x, y)
+    hand.ask("p => { window.taken = p.hand.gesture; p.undo(); }")
+    hand.page.mouse.down()
+    hand.page.mouse.move(x + 5.0, y)
+    hand.page.mouse.move(x + 9.0, y)
+    hand.until("p => p.store.history.edits === 0 && p.hand.gripped && !!p.store.held?.amount")
+    hand.release()
+    assert len(hull.history) == 1

@@ -77,7 +77,7 @@ def test_a_second_window_shows_the_edits_of_the_other_under_its_name(
         " radius: [15, 5]}])"
     )
     anna.until("p => p.store.history.edits === 1")
-    box.get_by_text("fuller", exact=True).wait_for()
+    box.get_by_text("fuller", exact=True).first.wait_for()
     assert "bert" in box.locator("li").first.inner_text()
     told = anna.page.locator("details:has(h2:text-is('Edit'))").inner_text().split()
     assert {"fuller", "bert"} <= set(told)

@@ -137,7 +137,11 @@ def test_a_wavy_line_is_listed_with_what_its_batten_does_where_it_leads(
     row.wait_for()
     found = hull.fairness()
     place = found.unfair[0]
-    assert row.inner_text().split("\t")[:2] == [place.line, f"{1e3 * abs(place.residual):.1f} mm"]
+    springs = f"{1e3 * place.residual:+.1f} mm".replace("-", "−")
+    assert row.inner_text().split("\t")[:2] == [place.line, springs]
+    away = place.residual - place.expected
+    words = f"a {'hollow' if away > 0.0 else 'hump'} of {1e3 * abs(away):.1f} mm"
+    assert words in box.get_by_text(f"{place.point} on {place.line}").first.inner_text()
     row.get_by_role("button").click()
     assert hand.ask("p => p.store.net.points.get(p.store.selection.row).name") == place.point
     assert "list again" not in box.inner_text()

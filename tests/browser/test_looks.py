@@ -532,6 +532,59 @@ def test_every_line_is_named_in_its_own_view(
         assert both.sum() == len(written)
 
 
+@pytest.mark.parametrize("factor", [5, 10])
+def test_every_line_is_named_where_lengths_are_compressed(
+    open_page: Open, bulk_carrier: ah.Hull, factor: int
+) -> None:
+    """The ship fills her view; buttocks stand above their ends, in the order of the ship."""
+    hand = open_page(bulk_carrier.snapshot(), viewport={"width": 1440, "height": 900})
+    hand.ask("(p, factor) => p.compress(factor)", factor)
+    hand.settled()
+    for kind, family in (("profile", "BTK"), ("half", "WL")):
+        wide, high = hand.ask(
+            "(p, kind) => { const v = p.views[kind], [l, t, r, b] = v.margins, [u0, u1, v0, v1] ="
+            " v.extent(); return [v.axis.s * (u1 - u0) / (v.width - l - r),"
+            " v.sy * (v1 - v0) / (v.height - t - b)]; }", kind,
+        )  # fmt: skip
+        assert max(wide, high) > 0.7, "else most of the view is empty"
+        written = hand.ask(NAMED, kind)
+        foot = hand.ask("(p, kind) => p.views[kind].at(0, 0, 0, 1)[1]", kind)
+        names = [each.split()[1] for each in bulk_carrier.lines if each.startswith(family)]
+        above = [each for each in written if each[0] in names and each[4] < foot and each[1] > 46.0]
+        assert len({text for text, *_ in above}) > 0.9 * len(names)
+    middle = hand.ask("p => p.views.profile.at(p.views.profile.midship, 0, 0, 1)[0]")
+    deck = hand.ask("p => p.views.profile.at(0, 0, p.views.profile.box().z1, 1)[1]")
+    upright = sorted((left, float(text)) for text, left, _, right, foot in
+                     hand.ask(NAMED, "profile") if foot < deck and right - left < 11.0)  # fmt: skip
+    aft, fore = ([y for x, y in upright if (x < middle) == side] for side in (True, False))
+    assert len(aft) > 8
+    assert len(fore) > 8
+    assert aft == sorted(aft)
+    assert fore == sorted(fore, reverse=True)
+
+
+def test_names_with_leaders_stand_in_the_order_of_their_lines(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """Also where a chosen section has taken the room of one of them."""
+    pull = {"op": "pull", "point": "WL 0.35 x ST 17", "d": 0.1123, "radius": [15.2, 6.1]}
+    hull.apply("pull", [pull])
+    hand = open_page(hull, viewport={"width": 1440, "height": 900})
+    point, line = "p.store.net.find('WL 0.35 x ST 17')", "p.store.net.findCurve('ST 17')"
+    for choose in ("", f"p.store.select({point}, {line})"):
+        hand.ask(f"p => {{ {choose} }}")
+        hand.settled()
+        top, middle = hand.ask(
+            "p => { const v = p.views.profile, b = v.box();"
+            " return [v.at(0, 0, b.z1, 1)[1], v.at(v.midship, 0, 0, 1)[0]]; }"
+        )
+        above = sorted((left + right, text) for text, left, _, right, foot in
+                       hand.ask(NAMED, "profile") if foot < top and text != "BTK")  # fmt: skip
+        aft = [float(text) for x, text in above if x < 2.0 * middle]
+        assert len(aft) > 5
+        assert aft == sorted(aft)
+
+
 def test_lines_along_the_ship_are_named_in_either_half(
     open_page: Open, bulk_carrier: ah.Hull
 ) -> None:

@@ -1,5 +1,7 @@
 """Panels beside the drawing: history, why, hydrostatics, areas; nothing changes unasked."""
 
+import re
+
 from playwright.sync_api import Locator
 
 import assoc_hull as ah
@@ -239,3 +241,72 @@ def test_a_burst_of_arrows_is_made_before_what_is_asked_then(
             hand.ask("(p, name) => p.apply('typed', [{op: 'pull', point: name, d: 0.01}])", POINT)
         hand.until("(p, n) => p.hand.free && p.store.history.edits === n", edits)
         assert hand.ask("p => p.store.problem") is None
+
+
+def test_the_points_of_every_line_fit_the_panel(open_page: Open, bulk_carrier: ah.Hull) -> None:
+    """Both coordinates of a line in a plane, all three of another; the panel is not cut."""
+    hand = open_page(bulk_carrier.snapshot())
+    hand.ask("p => p.find('ST 18')")
+    box = opened(hand, "Points")
+    box.locator("caption").get_by_text("all at x = 270.000").wait_for()
+    assert box.locator("th").all_inner_texts() == ["point", "y", "z"]
+    fits = (
+        "(([aside]) => aside.scrollWidth <= aside.clientWidth)(document.querySelectorAll('aside'))"
+    )
+    for name in ("ST 18", "deck edge", "profile [2]", "flat of bottom", "WL 8", "BTK 2"):
+        hand.ask("(p, name) => p.find(name)", name)
+        box.locator("caption").get_by_text(name).wait_for()
+        assert hand.page.evaluate(fits), name
+    hand.ask("p => p.find('deck edge')")
+    box.locator("caption").get_by_text("deck edge").wait_for()
+    assert box.locator("th").all_inner_texts() == ["point", "x", "y", "z"]
+
+
+def test_what_has_moved_a_little_has_not_moved_by_nothing(open_page: Open, hull: ah.Hull) -> None:
+    """Why tells so; a comparison tells of lines how far they differ, not only which."""
+    hand = open_page(hull)
+    pull(hand, 0.00004)
+    hand.ask("(p, name) => p.find(name)", POINT)
+    box = opened(hand, "Why")
+    box.get_by_text("moved under 0.1 mm").first.wait_for()
+    box = opened(hand, "History")
+    box.get_by_label("compare with the hull as it came").click()
+    box.get_by_text("Dashed: the hull as it was then").wait_for()
+    assert re.search(r"Most: BTK [\d.]+ by [\d.]+ mm,", box.locator("[role=status]").inner_text())
+
+
+def test_names_of_the_grid_stay_at_the_foot(open_page: Open, bulk_carrier: ah.Hull) -> None:
+    """Points of a buttock on the base line are no reason to lift the names of stations."""
+    hand = open_page(bulk_carrier.snapshot(), viewport={"width": 1440, "height": 900})
+    hand.ask("p => { p.find('BTK 2'); p.fit(); }")
+    hand.settled()
+    foot = hand.ask("p => p.views.profile.at(0, 0, p.views.profile.box().z0, 1)[1]")
+    tops = hand.ask(
+        "p => p.views.profile.written.filter(({text, box, colour}) => colour === p.ink.soft &&"
+        " box[0] > 50 && /^[0-9]/.test(text)).map(({box}) => box[1])"
+    )
+    assert len(tops) > 8
+    assert all(top > foot for top in tops)
+
+
+def test_what_was_said_gives_way_to_a_hint(open_page: Open, hull: ah.Hull) -> None:
+    """After some seconds, also where nothing else happens."""
+    hand = open_page(hull)
+    hand.ask("p => p.say('something was done')")
+    foot = hand.page.locator(".page > footer")
+    assert "something was done" in foot.inner_text()
+    foot.get_by_text("Click a point or a line").wait_for(timeout=8000)
+
+
+def test_letters_of_the_areas_are_no_larger_than_those_beside(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """On a narrow screen the curve is as wide as the page."""
+    for wide in (390, 800, 1440):
+        hand = open_page(hull, viewport={"width": wide, "height": 844})
+        box = opened(hand, "Hydrostatics")
+        text = box.locator("svg text").first
+        text.wait_for()
+        high = text.bounding_box()
+        assert high is not None
+        assert 8.0 < high["height"] < 20.0

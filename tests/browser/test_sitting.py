@@ -159,7 +159,7 @@ def test_apply_of_a_variation_is_in_sight(open_page: Open, hull: ah.Hull) -> Non
     box = hand.page.locator("details:has(h2:text-is('Vary'))")
     box.get_by_role("button", name="List the parameters").press("Enter")
     box.get_by_text("can be varied").wait_for()
-    box.get_by_text("m now; from").wait_for()  # its limits come after it
+    box.get_by_text("m now; fair from").wait_for()  # its limits come after it
     hand.settled()
     apply = box.get_by_role("button", name="Apply").bounding_box()
     assert apply is not None

@@ -35,7 +35,7 @@ export class Asker {
     this.arrived(this.waits);
     this.asked = this.page.request(message);
     this.words.textContent = words;
-    if (message.apply || !ANSWERS.includes(message.t)) return;
+    if (!ANSWERS.includes(message.t)) return;
     this.waits = this.asked;
     this.late = setTimeout(() => this.words.after(this.halt), LONG);
   }
@@ -51,6 +51,12 @@ export class Asker {
   /** Gives up the answer that is waited for; the server ends its work. */
   stop() {
     const {page, waits} = this;
+    if (waits && waits === page.applying) {
+      // It may be made by now: what comes of it is told.
+      page.giveUp(waits);
+      this.words.textContent = "Stopping …";
+      return this.arrived(waits);
+    }
     if (waits && page.shower === this) page.dropGhost();
     else if (waits) page.giveUp(waits);
     this.arrived(waits);
@@ -61,6 +67,7 @@ export class Asker {
   /** Asks for a ghost: one that comes later for somebody else is not shown. @param {{t: string, [name: string]: unknown}} message @param {string} words */
   askGhost(message, words) {
     this.page.dropGhost();
+    this.page.store.refusal = null; // what was refused before is not what is looked at now
     this.ask(message, words);
     this.page.wanted = this.ghost = this.asked;
     this.page.shower = this;

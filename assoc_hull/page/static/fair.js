@@ -3,7 +3,7 @@
 import {button, form, link, make, paragraph, tableOf} from "./elements.js";
 import {Offer, costWords} from "./propose.js";
 import {curveOf} from "./ways.js";
-import {millimetres, typedNumber} from "./units.js";
+import {millimetres, signed, typedNumber} from "./units.js";
 
 const LEAST = 1e-4, TIMES = 2000; // m: the slider goes from 0.1 to 200 mm
 
@@ -65,18 +65,18 @@ export class Fairing extends Offer {
     this.tell(value, `Dashed: ${costWords(value, this.page.store)}; ${value.moved} of ${value.points} points move by more than 0.1 mm. Nothing is changed yet.`);
   }
 
-  /** @param {{lines: Wavy[], unfair: {line: string, point: string, residual: number, ratio: number}[], points: {point: string, off: number, score: number, alarm: boolean}[]}} found */
+  /** @param {{lines: Wavy[], unfair: {line: string, point: string, residual: number, expected: number, ratio: number}[], points: {point: string, off: number, score: number, alarm: boolean}[]}} found */
   #show({lines, unfair, points}) {
     this.words.textContent = `${unfair.length ? `${unfair.length} unfair ${unfair.length === 1 ? "place" : "places"}` : "No unfair place"}; ${points.filter(({alarm}) => alarm).length} points look wrong.`;
-    const table = tableOf("The waviest lines: how far a batten springs where that is least like the lines beside, times the usual there, inflections", ["line", "springs", "× usual", "turns"]), body = table.createTBody();
+    const table = tableOf("The waviest lines: how far a batten springs, outward +, where that is least like the lines beside; times the usual there; inflections", ["line", "springs", "× usual", "turns"]), body = table.createTBody();
     for (const each of lines) {
       const row = body.insertRow();
       row.insertCell().append(link(each.line, () => this.#fly(each.at, each.line)));
-      for (const words of [millimetres(each.springs), each.ratio.toFixed(1), each.inflections === null ? "–" : String(each.inflections)]) row.insertCell().textContent = words;
+      for (const words of [signed(1e3 * each.springs, 1, "mm"), each.ratio.toFixed(1), each.inflections === null ? "–" : String(each.inflections)]) row.insertCell().textContent = words;
     }
     const list = (/** @type {string} */ title, /** @type {HTMLElement[]} */ rows) => rows.length ? [paragraph(title), ...rows] : [];
     this.list.replaceChildren(table,
-      ...list("Unfair places", unfair.map((each) => link(`${each.point} on ${each.line}: springs ${millimetres(each.residual)}, ${each.ratio.toFixed(1)} times the usual`, () => this.#fly(each.point, each.line)))),
+      ...list("Unfair places", unfair.map((each) => link(`${each.point} on ${each.line}: a ${each.residual > each.expected ? "hollow" : "hump"} of ${millimetres(Math.abs(each.residual - each.expected))} beside its neighbours, ${each.ratio.toFixed(1)} times the usual`, () => this.#fly(each.point, each.line)))),
       ...list("Points that their lines do not bear out", points.map((each) => link(`${each.point}: ${millimetres(Math.abs(each.off))} too far ${each.off > 0 ? "out" : "in"}, score ${each.score.toFixed(1)}${each.alarm ? "" : " (not called wrong)"}`, () => this.#fly(each.point, each.point.split(" x ")[0])))));
   }
 

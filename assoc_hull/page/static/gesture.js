@@ -140,6 +140,7 @@ export class Pointers {
   track() {
     const {press, view, hand} = this, held = this.store.held;
     if (!press || press.mode !== "point" || !press.moved || !held || !hand.gripped) return;
+    held.fine = press.fine;
     const part = press.fine ? FINE : 1, dx = (press.at[0] - press.x) * part, dy = (press.at[1] - press.y) * part;
     const side = view.side(held.start[0]);
     if (held.how === "pull") {

@@ -49,7 +49,7 @@ export class Hand {
     this.predictor.reset();
     this.asked.clear();
     const place = [...start], free = this.store.net?.points.get(row)?.free ?? "";
-    this.store.held = {row, how, place, start: place, free, normal: null, radius: null, way: null, amount: null, held: false, refused: false, waiting: false};
+    this.store.held = {row, how, place, start: place, free, normal: null, radius: null, way: null, amount: null, held: false, refused: false, waiting: false, fine: this.store.tools.fine};
     this.store.refusal = null;
     this.send({t: "begin", gesture: this.gesture, row, how, ...(how === "pull" && this.store.tools.radius ? {radius: this.store.tools.radius} : {})});
     this.store.changed("overlay", "panel");
@@ -149,6 +149,17 @@ export class Hand {
     this.committing = null;
     if (this.store.held) this.#let(true);
     else this.store.overlay = null;
+  }
+
+  /** The hull comes anew: who has just pressed a point takes hold of it there, and what was asked stays. @param {() => void} adopt */
+  renew(adopt) {
+    const old = this.gripped ? null : this.store.held, {wish, last} = this;
+    this.cancel(); // or the server keeps it from others
+    this.drop();
+    adopt();
+    if (!old || !this.begin(old.row, old.how) || !this.store.held) return;
+    Object.assign(this.store.held, {amount: old.amount, held: old.held});
+    Object.assign(this, {wish, last});
   }
 
   /** @param {boolean} forget */

@@ -58,7 +58,7 @@ export class Past extends Asker {
     } else {
       const {count, lines, volume, lcb} = message.value;
       const figures = [volume && `V ${signed(volume[1] - volume[0], 2, "m³")}`, lcb && `LCB ${signed(lcb[1] - lcb[0], 4, "m")}`].filter(Boolean).join(", ");
-      this.words.textContent = count ? `Dashed: the hull as it was then. ${count} lines differ${figures ? `; since then ${figures}` : ""}. Most: ${lines.slice(0, 3).map((/** @type {string} */ each) => each.split(": ")[0]).join(", ")}. Esc takes it away.` : "Nothing differs.";
+      this.words.textContent = count ? `Dashed: the hull as it was then. ${count} lines differ${figures ? `; since then ${figures}` : ""}. Most: ${lines.slice(0, 3).map((/** @type {string} */ each) => each.replace(/: (?=[^\d])/, " ").replace(/: ([\d.]+) mm at .+$/, (_, far) => ` by ${millimetres(far / 1e3)}`)).join(", ")}. Esc takes it away.` : "Nothing differs.";
     }
   }
 

@@ -116,7 +116,9 @@ class Places {
   /** A name at the edge; where a mark lies on it, farther in along its grid line. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align @param {string} colour */
   edge(text, x, y, align, colour) {
     const away = align === "center" ? [[x, y], [x, y - 14], [x, y - 28], [x + 14, y], [x - 14, y]] : [0, 1, 2, 3].map((n) => [x + 16 * n, y]);
-    const [u, v] = away.find(([p, q]) => !this.dotted(this.box(text, p, q, align))) ?? [x, y];
+    // Letters are less high than their room: a point on the base line is no hindrance to names below it.
+    const clear = (/** @type {number[]} */ [l, t, r, b]) => !this.dotted([l, t + 2, r, b - 2]);
+    const [u, v] = away.find(([p, q]) => clear(this.box(text, p, q, align))) ?? [x, y];
     return this.put(text, u, v, align, colour);
   }
 
@@ -158,7 +160,7 @@ export function drawLabels(view, g, ink) {
   const left = places.left = Math.max(view.at(body ? 0 : x0, y1, 0, -1)[0] - 8, 40);
   const foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
   places.edge(body ? "BTK" : "ST", left, foot + 12, "right", ink.soft); // first, or a label has its place
-  if (body) stations(places);
+  if (body) above(places, "sections");
   if (view.kind !== "half") {
     places.edge("DWL", left, view.at(0, 0, ship.draught, 1)[1], "right", ink.water);
     places.edge("BL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
@@ -177,6 +179,10 @@ export function drawLabels(view, g, ink) {
       places.edge("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
       column(places, "BTK", of("buttocks"), (y) => view.at(0, y, 0, 1)[1]);
     }
+    if (view.steep) {
+      above(places, "buttocks");
+      return places.write();
+    }
     const written = new Set(), spots = spotsOf(places);
     within(places, spots, written, 0);
     // Where the top of the drawing is out of the picture, names above it would lie on lines.
@@ -194,23 +200,26 @@ function column(places, family, lines, at) {
   if (written.length) places.put(family, places.left, Math.min(...written) - HIGH - 1, "right", ink.soft);
 }
 
-/** Stations stand above their ends; those that end where others do along themselves, if there is room. @param {Places} places */
-function stations(places) {
-  const {view, ink} = places, {net, curves} = view.store;
+/** Lines that run upward stand above their ends, as on paper; those that end where others do along themselves, if there is room. @param {Places} places @param {string} family */
+function above(places, family) {
+  const {view, ink} = places, {net, curves} = view.store, body = view.kind === "body", middle = body ? 0 : view.midship;
   /** @type {Spot[]} */
   const ends = [];
   for (const line of net?.lines ?? []) {
-    const sides = line.family === "sections" ? view.sides(line) : null;
-    // A line of several curves is named where it ends highest.
+    if (line.family !== family) continue;
+    const sides = view.sides(line) ?? [];
+    // A line of several curves is named where it ends highest; in the profile so in either half.
     const tops = line.curves.flatMap((id) => { const c = curves.get(id); return c ? [c.xyz.subarray(0, 3), c.xyz.subarray(-3)] : []; }).sort((p, q) => q[2] - p[2]);
-    for (const side of tops.length ? sides ?? [] : []) {
-      const [x, y] = view.at(tops[0][0], tops[0][1], tops[0][2], side);
+    const named = body ? sides.map((side) => ({end: tops[0], side})) : [-1, 1].map((half) => ({end: tops.find(([x]) => half * (x - middle) > 0), side: 1}));
+    for (const {end, side} of named) {
+      if (!end) continue;
+      const [x, y] = view.at(end[0], end[1], end[2], side);
       // One that ends outside the picture is named along itself.
-      if (y >= 20 && y < view.height && x > 0 && x < view.width) ends.push({line, name: short(line.name), key: line.name + true, x, y, gap: 0, colour: ink.sections});
+      if (y >= 20 && y < view.height && x > 0 && x < view.width) ends.push({line, name: short(line.name), key: line.name + (body || end[0] > middle), x, y, gap: 0, colour: ink[family]});
     }
   }
   // Of those that end in one place the order is that of the ship.
-  const order = (/** @type {Spot} */ p, /** @type {Spot} */ q) => Math.round(p.x) - Math.round(q.x) || (q.line.offset ?? 0) - (p.line.offset ?? 0);
+  const order = (/** @type {Spot} */ p, /** @type {Spot} */ q) => Math.round(p.x) - Math.round(q.x) || (body ? (q.line.offset ?? 0) - (p.line.offset ?? 0) : (p.x > view.width / 2 ? -1 : 1) * ((p.line.offset ?? 0) - (q.line.offset ?? 0)));
   ends.sort(order);
   ends.forEach((each, i) => each.gap = Math.min(each.x - (ends[i - 1]?.x ?? -Infinity), (ends[i + 1]?.x ?? Infinity) - each.x));
   const written = new Set(), spots = spotsOf(places), alone = ends.filter(({gap}) => gap > TOLD);
@@ -229,7 +238,8 @@ function stations(places) {
   });
   // The family stands at the left, or in the widest gap.
   const gap = xs.slice(1).map((x, i) => ({x: (x + xs[i]) / 2, wide: x - xs[i]})).reduce((p, q) => q.wide > p.wide ? q : p, {x: 0, wide: 0});
-  if (fan.length && !places.put("ST", xs[0] - 10, top - 8, "right", ink.sections)) places.put("ST", gap.x, top - 8, "center", ink.sections);
+  const title = fan[0]?.line.name.split(" ")[0] ?? "";
+  if (fan.length && !places.put(title, xs[0] - 10, top - 8, "right", ink[family])) places.put(title, gap.x, top - 8, "center", ink[family]);
   within(places, spots, written, FREE_GAP);
 }
 
@@ -291,12 +301,12 @@ function knees(places, spots, written, top, room) {
   const {view} = places, middle = view.at(view.midship, 0, 0, 1)[0], way = view.kind === "half" ? -1 : 1, far = view.width - 4;
   const named = (/** @type {string} */ line) => written.has(`${line}true`) || written.has(`${line}false`);
   /** @type {(Spot & {knee: number})[]} */
-  const chosen = [];
-  // First the lines that are named nowhere, then those that are in one half only.
-  for (const once of [true, false]) {
+  let chosen = [];
+  /** @param {Spot[]} given @param {boolean} once @param {number} turn what it costs to leave the order of the lines */
+  const take = (given, once, turn) => {
     /** @type {Map<string, Spot[]>} */
     const of = new Map(), last = [places.left, far];
-    for (const each of spots) if (!written.has(each.key) && each.y > top && each.gap > (once ? LEAST_GAP : PLAIN) && !(once && named(each.line.name))) {
+    for (const each of given) {
       const key = once ? each.line.name : each.key, known = of.get(key);
       if (known) known.push(each);
       else of.set(key, [each]);
@@ -307,15 +317,22 @@ function knees(places, spots, written, top, room) {
         const aft = each.x < middle, knee = Math.min(Math.max(each.x + (aft ? -1 : 1) * SLANT * (each.y - top), places.left), far);
         const free = Math.min(...chosen.map((other) => Math.abs(other.knee - knee)), room), turned = aft ? knee < last[0] : knee > last[1];
         // Near, told from its neighbours, with room for the name, in the order of the lines.
-        return {...each, knee, aft, cost: free < APART ? Infinity : 0.6 * (each.y - top) + 25 * Math.max(PLAIN - each.gap, 0) + 6 * Math.max(2 * PLAIN - each.gap, 0) + 2 * (room - free) + (turned ? 150 : 0)};
+        return {...each, knee, aft, cost: free < APART ? Infinity : 0.6 * (each.y - top) + 25 * Math.max(PLAIN - each.gap, 0) + 6 * Math.max(2 * PLAIN - each.gap, 0) + 2 * (room - free) + (turned ? turn : 0)};
       }).reduce((p, q) => q.cost < p.cost ? q : p);
       if (best.cost === Infinity) continue;
       last[best.aft ? 0 : 1] = best.knee;
       chosen.push(best);
       written.add(best.key);
     }
-  }
-  return chosen.sort((p, q) => p.knee - q.knee);
+  };
+  // First the lines that are named nowhere, then those that are in one half only.
+  for (const once of [true, false]) take(spots.filter((each) => !written.has(each.key) && each.y > top && each.gap > (once ? LEAST_GAP : PLAIN) && !(once && named(each.line.name))), once, 150);
+  // Which have room is known: now all in one order; what has lost its room by that leaves it.
+  const before = chosen, wanted = (/** @type {Set<string>} */ keys) => spots.filter(({key, y, gap}) => keys.has(key) && y > top && gap > LEAST_GAP);
+  chosen = [];
+  take(wanted(new Set(before.map(({key}) => key))), false, 1e4);
+  take(wanted(new Set(before.map(({key}) => key).filter((each) => !chosen.some(({key}) => key === each)))), false, 150);
+  return (chosen.length < before.length ? before : chosen).sort((p, q) => p.knee - q.knee);
 }
 
 /** @param {Places} places @param {number[][]} way @param {string} colour @param {boolean} dot */

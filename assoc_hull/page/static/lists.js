@@ -13,6 +13,7 @@ export class PointTable {
     this.page = page;
     this.box = box;
     this.shown = "";
+    this.axes = [0, 1, 2];
   }
 
   render() {
@@ -23,7 +24,10 @@ export class PointTable {
     if (id === null || !store.net) {
       return this.box.replaceChildren(paragraph("Click a line: its points are listed here."));
     }
-    const table = tableOf(`Points of ${store.net.curveName(id)}, m`, ["point", "x", "y", "z"]), body = table.createTBody();
+    // What all have in common stands above them: the panel is narrow.
+    const {axis, offset} = store.net.lineOf(id) ?? {axis: null, offset: null}, plane = axis === null || offset === null ? "" : `, all at ${"xyz"[axis]} = ${offset.toFixed(3)}`;
+    this.axes = [0, 1, 2].filter((i) => !plane || i !== axis);
+    const table = tableOf(`Points of ${store.net.curveName(id)}, m${plane}`, ["point", ...this.axes.map((i) => "xyz"[i])]), body = table.createTBody();
     for (const row of alongCurve(store, id)) this.#row(body.insertRow(), row, id);
     this.box.replaceChildren(table);
   }
@@ -32,11 +36,11 @@ export class PointTable {
   #row(line, row, id) {
     const {store} = this.page, point = store.net?.points.get(row), place = store.places.get(row);
     if (!point || !place || !store.net) return;
-    const other = point.a === id ? point.b : point.a, name = link(other >= 0 ? store.net.curveName(other) : point.name, () => this.page.choose(row, id));
+    const other = point.a === id ? point.b : point.a, name = link(other >= 0 ? store.net.curveName(other) : point.name.replace(/^.* @ /, ""), () => this.page.choose(row, id));
     name.title = `${point.name}: ${store.net.roleWords(point)}`;
     if (row === store.selection.row) line.setAttribute("aria-current", "true");
     line.insertCell().append(name);
-    for (let i = 0; i < 3; i++) {
+    for (const i of this.axes) {
       const cell = line.insertCell();
       cell.textContent = place[i].toFixed(3);
       if (point.free.includes("xyz"[i])) cell.className = "free";

@@ -44,14 +44,14 @@ export function themeOf(wish) {
 
 const SHARE = 0.254, LEAST = 104; // of the height at most, px at least
 
-/** Gives the low views the height that the hull fills; all of theirs where lengths are compressed. @param {Page} page */
+/** Gives the low views the height that the hull fills, or half of all where lengths are much compressed. @param {Page} page */
 export function layRows(page) {
   const {store, views} = page, box = views.profile.element.parentElement;
   if (!box || !store.net) return;
   const {clientWidth: wide, clientHeight: high} = box, key = `${wide}/${high}/${store.squeeze}/${store.tab}/${store.net.particulars.name}`;
   if (box.dataset.laid === key) return;
   box.dataset.laid = key;
-  box.dataset.squeeze = String(store.squeeze); // titles stand in the middle, unless the drawing is all there
+  box.dataset.squeeze = String(store.squeeze); // a ship that is as high as long fills a square
   const want = (/** @type {View} */ view) => view.heightFor(wide, view.kind === "body" ? 1 : store.squeeze);
   // Where one view is seen at a time it is as high as it fills; the wire is turned, and has room for that.
   box.style.setProperty("--alone", `${Math.round(store.tab === "wire" ? 0.75 * wide : want(views[store.tab]))}px`);

@@ -3,7 +3,7 @@
 import {make} from "./elements.js";
 import {signed} from "./units.js";
 
-const READ = 6000; // ms
+export const READ = 6000; // ms
 const WIDE = 440, REASONS = 3;
 
 /** @param {Page} page */
@@ -23,9 +23,11 @@ export function placeBubble(page) {
   const right = x < view.width / 2, below = y < view.height / 2;
   bubble.style.left = right ? `${Math.min(Math.max(x + 18, 8), Math.max(view.width - wide - 8, 8))}px` : "auto";
   bubble.style.right = right ? "auto" : `${Math.min(Math.max(view.width - x + 18, 8), Math.max(view.width - wide - 8, 8))}px`;
-  bubble.style.maxHeight = `${Math.max(below ? view.height - y - 26 : y - 26, 60)}px`; // its first words are never cut
-  bubble.style.top = below ? `${Math.min(Math.max(y + 18, 28), view.height - 60)}px` : "auto";
-  bubble.style.bottom = below ? "auto" : `${Math.min(Math.max(view.height - y + 18, 8), view.height - 60)}px`;
+  // How far the point was pulled stands over it, near the upper edge below it.
+  const apart = below ? y < 46 ? 32 : 18 : 28;
+  bubble.style.maxHeight = `${Math.max((below ? view.height - y : y) - apart - 8, 60)}px`; // its first words are never cut
+  bubble.style.top = below ? `${Math.min(Math.max(y + apart, 28), view.height - 60)}px` : "auto";
+  bubble.style.bottom = below ? "auto" : `${Math.min(Math.max(view.height - y + apart, 8), view.height - 60)}px`;
 }
 
 /** A pull that goes much too far folds every line: the first reasons tell enough. @param {string} text */
@@ -80,7 +82,8 @@ export function writeFoot(page) {
   // What was said is read before it gives way to a hint.
   const said = !held && performance.now() - page.said.at < READ ? page.said.words : "";
   page.status.textContent = store.connection === "connecting" ? "Connecting" : said || hints;
-  const view = page.activeView(), pixel = 1e3 / view.axis.s * (page.store.tools.fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
+  // Across the ship, unless the point goes along it only: lengths may be compressed.
+  const view = page.activeView(), pixel = 1e3 / (held?.how === "move" && held.free === "x" ? view.axis.s : view.sy) * ((held ?? page.store.tools).fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
   const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
   page.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.net?.points.get(store.theirs.row)?.name ?? "a point"}` : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
 }

@@ -5,7 +5,7 @@ import {ACTIONS, Keys, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
 import {CROSSING, Net} from "./net.js";
 import {GHOST, LIVE, NET, PUBLISHED, THEIRS, VERSION, parseFrame} from "./wire.js";
-import {Speaker, placeBubble, writeFoot} from "./notices.js";
+import {READ, Speaker, placeBubble, writeFoot} from "./notices.js";
 import {keepLooks, layRows, readInk, restoreLooks, themeOf} from "./looks.js";
 import {Panel} from "./panel.js";
 import {Pointers} from "./gesture.js";
@@ -161,10 +161,11 @@ export class Page {
     if (store.net && (frame.kind === NET || frame.kind === PUBLISHED)) store.drawn = farthestDrawn(frame, store.curves);
     if (frame.kind === NET) {
       const first = store.net === null, net = new Net(this.message);
-      hand.drop();
-      store.connection = "open"; // what was held before is dropped
-      store.adopt(net, frame);
-      this.dropGhost();
+      hand.renew(() => {
+        store.connection = "open"; // what was held before is dropped
+        store.adopt(net, frame);
+        this.dropGhost();
+      });
       if (!this.options.within) this.root.ownerDocument.title = `${net.particulars.name} – fairing page`;
       this.bar.name(net.particulars, net.lines.length, net.points.size);
       if (first) this.fit();
@@ -255,6 +256,7 @@ export class Page {
     this.speaker.say(words);
     this.said = {words, at: performance.now()};
     this.status.textContent = words;
+    setTimeout(() => writeFoot(this), READ);
   }
 
   /** A fair answer and a lead are looked at before they are made. @param {Held} held @param {Record<string, number>} wish */

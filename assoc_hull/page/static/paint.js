@@ -40,6 +40,7 @@ export function paintHull(view, ink) {
   }
   g.setLineDash([]);
   g.globalAlpha = 1;
+  view.written = [];
   if (view.store.show.labels) drawLabels(view, g, ink);
 }
 
@@ -133,6 +134,8 @@ export function paintOverlay(view, ink) {
   view.note.textContent = noteOf(view); // the factor is known only now
   if (view.kind === "wire") return;
   if (store.show.combs) for (const id of combed(view)) drawComb(view, g, ink, id, id === chosen);
+  // A name is read through what moves: below is the line that it names.
+  for (const {box: [l, t, r, b]} of view.written.slice(1)) g.clearRect(l - 1, t, r - l + 2, b - t);
   drawHandles(view, g, ink);
 }
 

@@ -253,6 +253,7 @@ export class Panel {
 
   #edit() {
     const {store} = this.page, box = this.parts.Edit, {overlay, held, last} = store;
+    if (held?.refused) return this.#table(box, [["asked", held.amount === null ? "–" : millimetres(held.amount)], ["refused", "the reason stands beside the point; nothing follows beyond what was taken last"]]);
     if (overlay && (held || this.page.hand.committing)) {
       const {frame} = overlay;
       return this.#table(box, [

@@ -9,7 +9,7 @@ import {millimetres, signed} from "./units.js";
 
 /** How far points move off the hull, and lines between them, where that is farther, m. @param {number | null} normal @param {number} drawn */
 export function farWords(normal, drawn) {
-  if (normal === null && drawn < 1e-4) return "";
+  if ((normal ?? 0) < 1e-9) return drawn < 1e-4 ? "" : `${millimetres(drawn)} between points, which stay`;
   return `${millimetres(normal ?? 0)} off the hull${drawn > (normal ?? 0) + 1e-4 ? `, ${millimetres(drawn)} between points` : ""}`;
 }
 

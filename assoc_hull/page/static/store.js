@@ -5,7 +5,7 @@
 /** @typedef {{text: string, row: number | null, place: number[] | null, named: number[]}} Refusal */
 /**
  * What the hand holds: `place` is where the pointer wants the point, `start` where it lay.
- * @typedef {{row: number, how: "pull" | "move", place: number[], start: number[], free: string, normal: number[] | null, radius: number[] | null, way: number[] | null, amount: number | null, held: boolean, refused: boolean, waiting: boolean}} Held
+ * @typedef {{row: number, how: "pull" | "move", place: number[], start: number[], free: string, normal: number[] | null, radius: number[] | null, way: number[] | null, amount: number | null, held: boolean, refused: boolean, waiting: boolean, fine: boolean}} Held
  */
 
 export class Store {

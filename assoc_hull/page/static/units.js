@@ -5,7 +5,11 @@ export const typedNumber = ({value}) => Number(value.replace(",", ".").replace("
 /** @param {number} n @param {string} one */
 export const count = (n, one) => `${n} ${one}${n === 1 ? "" : "s"}`;
 /** @param {number} metres */
-export const millimetres = (metres) => `${metres < 0 ? "−" : ""}${(1e3 * Math.abs(metres)).toFixed(1)} mm`;
+export const millimetres = (metres) => {
+  const size = 1e3 * Math.abs(metres);
+  // What has moved at all has not moved by nothing.
+  return size > 1e-6 && size < 0.05 ? "under 0.1 mm" : `${metres < 0 ? "−" : ""}${size.toFixed(1)} mm`;
+};
 /** @param {number} value @param {number} digits @param {string} unit */
 export const signed = (value, digits, unit) => {
   const size = Math.abs(value).toFixed(digits);

@@ -1,22 +1,27 @@
 // A named parameter of the whole hull: the variant is shown as a ghost before it is made.
 
-import {Asker} from "./asker.js";
 import {button, form, make, paragraph} from "./elements.js";
-import {costWords} from "./propose.js";
+import {Offer, costWords} from "./propose.js";
 import {typedNumber} from "./units.js";
 
-/** @typedef {{name: string, unit: string, meaning: string, value: number | null, low: number | null, high: number | null, reason: string | null}} Parameter */
+/** @typedef {{name: string, unit: string, meaning: string, value: number | null, low: number | null, high: number | null, least: number | null, most: number | null, reason: string | null}} Parameter */
 
 /** How much one press on more or less is. @type {Record<string, number>} */
 const STEPS = {m: 0.1, m2: 1, m3: 100, deg: 1, "-": 0.01};
 
-/** @param {Parameter} found @param {string} unit */
-function spanWords({low, high}, unit) {
+/** @param {number | null} low @param {number | null} high @param {string} unit */
+function spanWords(low, high, unit) {
   const words = [low === null ? "" : `from ${low.toFixed(3)}${unit}`, high === null ? "" : `up to ${high.toFixed(3)}${unit}`];
-  return words.filter(Boolean).join(" ") || "no limits";
+  return words.filter(Boolean).join(" ") || "without limits";
 }
 
-export class Vary extends Asker {
+/** What is fair, and what is possible where that is more. @param {Parameter} found @param {string} unit */
+function limitWords({low, high, least, most}, unit) {
+  const fair = spanWords(low, high, unit), all = spanWords(least, most, unit);
+  return fair === all ? `possible ${all}` : `fair ${fair}; possible ${all}`;
+}
+
+export class Vary extends Offer {
   /** @param {Page} page @param {HTMLElement} box */
   constructor(page, box) {
     super(page, box);
@@ -27,11 +32,14 @@ export class Vary extends Asker {
     this.choice = make("select", {ariaLabel: "parameter of the hull", onchange: () => this.#choose()});
     this.about = paragraph("");
     this.field = make("input", {inputMode: "decimal", onkeydown: (/** @type {KeyboardEvent} */ event) => {
-      if (event.key === "Enter") this.#ask(false);
+      // Asked once more: it was seen, and is wanted.
+      if (event.key === "Enter") this.#ask(this.ready && JSON.stringify(this.#wish()) === this.what?.wish);
       if (event.key === "Escape") page.dropGhost();
     }});
     this.steps = [-1, 1].map((sign) => button("", () => this.#step(sign)));
-    this.form = form(this.choice, this.about, this.field, ...this.steps, button("Preview", () => this.#ask(false)), button("Apply", () => this.#ask(true)), button("Remove ghost", () => page.dropGhost()));
+    this.unfair = make("input", {type: "checkbox"});
+    const unfair = make("label", {title: "Also a hull whose lines bend more sharply than anyone would have them"}, this.unfair, " also unfair");
+    this.form = form(this.choice, this.about, this.field, ...this.steps, unfair, button("Preview", () => this.#ask(false)), button("Apply", () => this.#ask(true)), button("Remove ghost", () => page.dropGhost()));
     this.form.hidden = true;
     box.append(button("List the parameters", () => this.all()), this.form, this.words);
   }
@@ -43,6 +51,8 @@ export class Vary extends Asker {
 
   #chosen() { return this.found.find(({name}) => name === this.choice.value); }
 
+  #wish() { return {set: {[this.choice.value]: typedNumber(this.field)}, accept: this.unfair.checked}; }
+
   #choose() {
     const found = this.#chosen();
     if (!found || found.value === null) return;
@@ -53,7 +63,7 @@ export class Vary extends Asker {
     /** @param {Parameter} each */
     this.onLimits = (each) => {
       Object.assign(found, each);
-      this.about.textContent = told + (each.reason ?? spanWords(each, unit));
+      this.about.textContent = told + (each.reason ?? limitWords(each, unit));
     };
     this.field.value = found.value.toFixed(3);
     this.field.setAttribute("aria-label", `wanted ${found.name}${unit && `,${unit}`}`);
@@ -66,7 +76,8 @@ export class Vary extends Asker {
     const found = this.#chosen(), value = typedNumber(this.field), base = Number.isFinite(value) ? value : found?.value ?? 0;
     if (!found) return;
     const wanted = base + sign * (STEPS[found.unit] ?? STEPS["-"]);
-    this.field.value = Math.min(Math.max(wanted, found.low ?? -Infinity), found.high ?? Infinity).toFixed(3);
+    const [low, high] = this.unfair.checked ? [found.least, found.most] : [found.low, found.high];
+    this.field.value = Math.min(Math.max(wanted, low ?? -Infinity), high ?? Infinity).toFixed(3);
     this.words.textContent = "Preview shows what that does.";
   }
 
@@ -79,14 +90,15 @@ export class Vary extends Asker {
       return;
     }
     this.page.dropGhost();
-    const message = {t: "vary", set: {[found.name]: value}, apply};
+    const wish = this.#wish(), message = {t: "vary", ...wish, apply};
     if (apply) {
       this.ask(message, "Varying the hull …");
       this.page.applying = this.asked;
-    } else this.askGhost(message, "Making the ghost …");
+    } else this.offer(message, "Making the ghost …", {wish: JSON.stringify(wish)});
   }
 
-  render() {}
+  /** @param {{id: number, text: string}} message */
+  problem({id, text}) { return super.problem({id, text: text.replace("with accept=True (--accept)", "by “also unfair”")}); }
 
   /** @param {{id: number, value: any}} message */
   answer(message) {
@@ -103,12 +115,14 @@ export class Vary extends Asker {
       return;
     }
     const {volume, lcb} = message.value;
-    this.words.textContent = `Ghost: ${costWords(message.value, this.page.store)}: V ${volume.toFixed(2)} m³, LCB ${lcb.toFixed(3)} m. Nothing is changed yet.`;
+    this.tell({...message.value, refused: []}, `Ghost: ${costWords(message.value, this.page.store)}; then V ${volume.toFixed(2)} m³, LCB ${lcb.toFixed(3)} m. Nothing is changed yet: Enter or Apply makes it.`);
+    this.words.scrollIntoView({block: "nearest"});
   }
 
   /** @param {{id: number}} message */
   done(message) {
-    if (!message.id || message.id !== this.asked) return;
-    this.all();
+    const mine = message.id && message.id === this.asked;
+    super.done(message);
+    if (mine) this.all();
   }
 }

@@ -96,6 +96,12 @@ export class View {
 
   get shown() { return this.width > 0 && this.height > 0; }
 
+  /** Whether its lines stand upright, as stations do. */
+  get steep() { return this.kind === "profile" && this.store.squeeze > 2; }
+
+  /** Left, above, right, below, px; names that stand upright need more. */
+  get margins() { return this.steep ? [46, 54, 16, 34] : MARGINS[this.kind]; }
+
   get midship() { return (this.store.net?.particulars.length ?? 0) / 2; }
 
   /** On which side of the middle a place is drawn; of the body plan only. @param {number} x */
@@ -186,14 +192,14 @@ export class View {
 
   /** Largest scales at which the whole hull is seen. */
   room() {
-    const [u0, u1, v0, v1] = this.extent(), [left, top, right, bottom] = MARGINS[this.kind];
+    const [u0, u1, v0, v1] = this.extent(), [left, top, right, bottom] = this.margins;
     return {across: Math.max(this.width - left - right, 20) / Math.max(u1 - u0, 1e-6),
       up: Math.max(this.height - top - bottom, 12) / Math.max(v1 - v0, 1e-6)};
   }
 
   /** Height at which the whole hull just fills so many pixels of width. @param {number} wide @param {number} squeeze */
   heightFor(wide, squeeze) {
-    const [u0, u1, v0, v1] = this.extent(), [left, top, right, bottom] = MARGINS[this.kind];
+    const [u0, u1, v0, v1] = this.extent(), [left, top, right, bottom] = this.margins;
     return (wide - left - right) / Math.max(u1 - u0, 1e-6) * (v1 - v0) * squeeze + top + bottom;
   }
 
@@ -205,7 +211,7 @@ export class View {
       [x0, x1, y0, y1] = [Math.min(x0, x), Math.max(x1, x), Math.min(y0, y), Math.max(y1, y)];
     }
     if (!(x1 >= x0)) return;
-    const [left, top, right, bottom] = MARGINS[this.kind], across = (this.width - left - right) / Math.max(x1 - x0, 1), up = (this.height - top - bottom) / Math.max(y1 - y0, 1);
+    const [left, top, right, bottom] = this.margins, across = (this.width - left - right) / Math.max(x1 - x0, 1), up = (this.height - top - bottom) / Math.max(y1 - y0, 1);
     this.pan((left + this.width - right) / 2 - (x0 + x1) / 2, (top + this.height - bottom) / 2 - (y0 + y1) / 2);
     this.zoom((left + this.width - right) / 2, (top + this.height - bottom) / 2, Math.min(across, up));
   }
@@ -220,12 +226,12 @@ export class View {
     this.axis.s = Math.min(...rooms.map((room) => Math.min(room.across, room.up / squeeze)));
     both.forEach((view) => {
       view.sy = this.axis.s * squeeze;
-      const [, , v0, v1] = view.extent(), [, top, , bottom] = MARGINS[view.kind];
+      const [, , v0, v1] = view.extent(), [, top, , bottom] = view.margins;
       view.oy = (top + view.height - bottom) / 2 + view.sy * (v0 + v1) / 2;
       view.fitted = true;
       view.touch();
     });
-    const [u0, u1] = this.extent(), [left, , right] = MARGINS[this.kind];
+    const [u0, u1] = this.extent(), [left, , right] = this.margins;
     this.axis.o = (left + this.width - right) / 2 - this.axis.s * (u0 + u1) / 2;
   }
 

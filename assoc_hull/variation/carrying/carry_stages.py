@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
+from assoc_hull.edit.document import end_if_stopped
 from assoc_hull.edit.nudge import Nudge
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.transaction import Transaction
@@ -192,6 +193,7 @@ class StagedCarry:
         room = self._room()
         begin = {name: self._present(room, name) for name in stage.names}
         for part in range(1, stage.parts + 1):
+            end_if_stopped()
             room = self._room() if part > 1 else room
             last, share = part == stage.parts, part / stage.parts
             goal = {

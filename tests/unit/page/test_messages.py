@@ -50,6 +50,7 @@ WRONG: list[tuple[str, str, Any]] = [
     ("vary", "set", {"breadth": "wide"}),
     ("vary", "set", {"breadth": True}),
     ("vary", "apply", 1),
+    ("vary", "accept", 1),
 ]
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.edit.document import STOPPED
 from assoc_hull.edit.drag import Drag, Live
 from assoc_hull.page.ghosts import ghost_of_edits
 from assoc_hull.page.messages import (
@@ -36,6 +37,7 @@ from assoc_hull.page.messages import (
 )
 from assoc_hull.page.session import Session
 from assoc_hull.page.wire import Frame, FrameKind, unpack
+from assoc_hull.variation.plan_choice import choose_plan
 from tests.conftest import Shipped
 
 POINT, OTHER = "WL 0.625 x ST 16", "WL 0.5 x ST 15"
@@ -384,6 +386,50 @@ def test_a_variant_is_shown_and_then_made(page: Page, hull: ah.Hull) -> None:
     assert page.text("done")["id"] == 3
     assert hull.fingerprint == expected.fingerprint
     assert [step.author for step in hull.history] == ["anna"]
+
+
+def test_a_variant_that_is_being_made_is_stopped(
+    page: Page, hull: ah.Hull, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The hull is as it was, one that waits is not made either, and the next is."""
+    begun, before = threading.Event(), hull.fingerprint
+
+    def slow(*given: Any) -> Any:
+        begun.set()
+        deadline = time.monotonic() + 20.0
+        while not STOPPED.get()() and time.monotonic() < deadline:
+            time.sleep(0.001)
+        return choose_plan(*given)
+
+    monkeypatch.setattr("assoc_hull.variation.vary.choose_plan", slow)
+    wanted = {"breadth": hull.particulars.breadth + 0.2}
+    page.ask(Vary(1, wanted, True))
+    assert begun.wait(20.0)
+    page.ask(Vary(2, wanted, True))
+    page.ask(Stop(2))
+    page.ask(Stop(1))
+    told = [page.text("refused") for _ in range(2)]
+    assert sorted(each["id"] for each in told) == [1, 2]
+    assert all("stopped" in " ".join(each["reasons"]) for each in told)
+    assert hull.fingerprint == before
+    monkeypatch.undo()
+    page.ask(Vary(3, wanted, True))
+    assert page.text("done")["id"] == 3
+
+
+def test_values_between_fair_and_possible_can_be_asked(page: Page, hull: ah.Hull) -> None:
+    """Both limits are told; one that is not fair is refused, unless it is accepted."""
+    page.ask(Parameters(1, "breadth"))
+    (told,) = (each for each in page.text("answer")["value"] if each["name"] == "breadth")
+    assert told["least"] < told["low"] < told["value"] < told["high"] < 90.0
+    assert told["most"] is None or told["most"] > 90.0
+    wanted = {"breadth": 90.0}
+    page.ask(Vary(2, wanted, apply=True))
+    assert "bend more sharply" in page.text("refused")["reasons"][0]
+    page.ask(Vary(3, wanted, accept=True))
+    page.frame(FrameKind.GHOST)
+    page.ask(Vary(4, wanted, apply=True, accept=True))
+    assert page.text("done")["id"] == 4
 
 
 def test_a_variant_that_cannot_be_had_is_one_sentence(page: Page, hull: ah.Hull) -> None:
