@@ -18,7 +18,7 @@ from assoc_hull.analysis.hydrostatics.floating_body import (
 )
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, body_of, flotation
 from assoc_hull.analysis.hydrostatics.tunnelled_body import TunnelledBody
-from assoc_hull.analysis.net.curve_net import station_planes
+from assoc_hull.analysis.net.curve_net import flat_ends_below, station_planes
 from assoc_hull.analysis.net.surface_layout import areas_between, strip_extents
 from assoc_hull.arguments import integer
 from assoc_hull.errors import BadInputError
@@ -234,7 +234,8 @@ def area_curve(body: Flotation, planes: FloatingPlanes) -> AreaCurve:
 
     Between stations the areas are those of the surface. Where no curve of the surface lies in a
     plane across the ship (before a raked stem, say) it is a parabola between the areas at both
-    ends, zero at the end of the hull, with the volume of the surface below it.
+    ends, at the end of the hull that of a transom or other flat end there, else zero, with the
+    volume of the surface below it.
 
     Parameters
     ----------
@@ -293,7 +294,10 @@ def _slab(body: Flotation, planes: FloatingPlanes, low: float, high: float) -> _
     near = [np.abs(stations - x).min() <= 1e-6 for x in (low, high)]
     aft, fore = low if near[0] else -np.inf, high if near[1] else np.inf
     areas = section_areas(body, np.array([low, high]), planes)[0]
-    first, last = (float(a) if on else 0.0 for a, on in zip(areas, near, strict=True))
+    first, last = (
+        float(area) if on else float(flat_ends_below(body.net, body.closed, planes, x)[0])
+        for area, on, x in zip(areas, near, (low, high), strict=True)
+    )
     volume = float(between_stations(body, aft, fore, planes).volume[0])
     return _Slab(low, high, first, last, volume / (high - low))
 
@@ -386,8 +390,8 @@ _COURSE = 400
 def sectional_area_course(hull: HasState, position: FloatingPosition) -> FloatArray | None:
     """Give places (n, 2), m and m2, of the sectional-area curve, from one end to the other.
 
-    It ends at no area, also where a transom stands in the water: upright there. None where tunnels
-    are cut out of the hull, whose areas are known at stations.
+    It ends at no area: where a transom stands in the water, upright from the area of that. None
+    where tunnels are cut out of the hull, whose areas are known at stations.
 
     Parameters
     ----------

@@ -417,9 +417,17 @@ def sum_transoms(
     return total
 
 
-def flat_ends_below(net: CurveNet, closed: bool, planes: FloatingPlanes) -> FloatArray:
-    """Give the area of all ends across the ship, those of bossings too, (d,), m2, both sides."""
-    return _areas_below(net, np.flatnonzero(np.isfinite(net.x) & net.end), closed, planes)
+def flat_ends_below(
+    net: CurveNet, closed: bool, planes: FloatingPlanes, x: float | None = None
+) -> FloatArray:
+    """Give the area of all ends across the ship, those of bossings too, (d,), m2, both sides.
+
+    Of those at `x` (m) only, where it is given.
+    """
+    chosen = np.isfinite(net.x) & net.end
+    if x is not None:
+        chosen &= np.abs(net.x - x) <= net.factor * _OUTERMOST
+    return _areas_below(net, np.flatnonzero(chosen), closed, planes)
 
 
 def _areas_below(

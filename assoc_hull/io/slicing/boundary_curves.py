@@ -52,6 +52,7 @@ from assoc_hull.model.line_source import LineSource
 __all__ = [
     "BoundaryCurve",
     "BoundaryMarks",
+    "OutlineCorner",
     "draw_borders",
     "draw_boundary_curve",
     "draw_flats",
@@ -119,18 +120,30 @@ class BoundaryMarks:
         How far each may lie off the border.
     plane : ((3,), float) or None
         Unit normal and offset (m) of its plane, if it has one.
+    held : (bool, bool)
+        Whether the first and the last is the corner of an outline, at which the border ends.
     """
 
     lines: tuple[str, ...]
     places: FloatArray
     doubt: FloatArray
     plane: tuple[FloatArray, float] | None
+    held: tuple[bool, bool] = (False, False)
 
     def reversed(self) -> BoundaryMarks:
         """Give the marks the other way round."""
         return BoundaryMarks(
-            self.lines[::-1], self.places[::-1].copy(), self.doubt[::-1].copy(), self.plane
-        )
+            self.lines[::-1], self.places[::-1].copy(), self.doubt[::-1].copy(), self.plane,
+            self.held[::-1],
+        )  # fmt: skip
+
+
+@attrs.frozen(eq=False)
+class OutlineCorner:
+    """A corner of the outline of an end, as a transom has: name of the line, place (3,), m."""
+
+    name: str
+    place: FloatArray
 
 
 def draw_boundary_curve(
@@ -139,23 +152,31 @@ def draw_boundary_curve(
     """Draw a boundary curve through marks, from aft, as smooth as their doubt allows.
 
     It may pass the smooth curve by `tolerance` (m), or by more where the marks are less sure, and
-    is led on a little beyond both ends, so that the lines of the first and last mark cross it.
+    is led on a little beyond both ends, so that the lines of the first and last mark cross it;
+    at the corner of an outline it ends.
     """
     if course.places[0, 0] > course.places[-1, 0]:
         course = course.reversed()
     corners = border_bends(course.places, course.doubt, rules.border_deg)
     xyz = fit_border(course.places, course.doubt, corners, rules.apart)
+    held = [end for end, is_held in zip((0, -1), course.held, strict=True) if is_held]
+    xyz[held] = course.places[held]
     away = np.sqrt(((xyz - course.places) ** 2).sum(axis=1))
     kept = _spaced(xyz, course.doubt, corners, rules.apart)
     drawn = xyz[kept]
-    ends = [_beyond(drawn[1], drawn[0], rules.apart), _beyond(drawn[-2], drawn[-1], rules.apart)]
-    whole = np.concatenate([ends[:1], drawn, ends[1:]])
+    ends = np.array([
+        _beyond(drawn[1], drawn[0], rules.apart), _beyond(drawn[-2], drawn[-1], rules.apart)
+    ])  # fmt: skip
+    free = ~np.array(course.held)
+    whole = np.concatenate([ends[:1][free[:1]], drawn, ends[1:][free[1:]]])
     kinds = np.full(len(whole), int(PointKind.SMOOTH))
-    kinds[np.searchsorted(kept, np.array(corners, np.int64)) + 1] = int(PointKind.KNUCKLE)
+    led = int(free[0])
+    kinds[np.searchsorted(kept, np.array(corners, np.int64)) + led] = int(PointKind.KNUCKLE)
     sure = np.maximum(tolerance, _SURE * course.doubt[kept])
+    sure = np.concatenate([sure[:1][free[:1]], sure, sure[-1:][free[1:]]])
     source = LineSource.make(
         "boundary", name, _in_plane(whole, course.plane), plane=course.plane, boundary=kind,
-        kind=kinds.tolist(), tolerance=np.concatenate([sure[:1], sure, sure[-1:]]),
+        kind=kinds.tolist(), tolerance=sure,
     )  # fmt: skip
     return source, BoundaryCurve(name, kind, course.lines, xyz, course.doubt, float(away.max()))
 
@@ -223,27 +244,96 @@ _LEAST_DOUBT = 5e-3
 
 
 def draw_knuckles(
-    parts: list[PieceFeatures], knuckles: list[KnuckleTrace], rules: FeatureRules, tolerance: float
+    parts: list[PieceFeatures],
+    knuckles: list[KnuckleTrace],
+    rules: FeatureRules,
+    tolerance: float,
+    outlines: Sequence[OutlineCorner] = (),
 ) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
     """Draw knuckle lines, and let every line that crosses one have its corner there.
 
-    `knuckles` were found on lines of single groups; `tolerance` (m) is that of adoption. Gives the
-    pieces in their order, the sources of the boundary curves, and a record of each.
+    `knuckles` were found on lines of single groups; `tolerance` (m) is that of adoption. A knuckle
+    line ends at the corner of an outline that it leads to. Gives the pieces in their order, the
+    sources of the boundary curves, and a record of each.
     """
     out = list(parts)
     sources: list[LineSource] = []
     borders: list[BoundaryCurve] = []
     known = [line for each in knuckles for line in _known(each, rules)]
+    left = list(outlines)
     for course in _knuckle_courses(known, tolerance):
         name = f"knuckle {len(borders) + 1}"
-        source, border = draw_boundary_curve(name, BoundaryKind.KNUCKLE, course, rules, tolerance)
-        split, taken, missed = _split_on(loft_source(source), out, course, rules, tolerance)
-        if missed > taken - len(course.lines):
-            continue
-        out = split
-        sources.append(source)
-        borders.append(attrs.evolve(border, taken=taken))
+        reached, corners = _to_outlines(course, parts, left, rules)
+        # Where lines pass by on the way to a corner, the knuckle line is the one without it.
+        for drawn in (reached, course) if corners else (course,):
+            source, border = draw_boundary_curve(
+                name, BoundaryKind.KNUCKLE, drawn, rules, tolerance
+            )
+            split, taken, missed = _split_on(loft_source(source), out, drawn, rules, tolerance)
+            if missed <= taken - len(course.lines):
+                out = split
+                sources.append(source)
+                borders.append(attrs.evolve(border, taken=taken))
+                left = [each for each in left if drawn is course or each not in corners]
+                break
     return out, sources, borders
+
+
+def _to_outlines(
+    course: BoundaryMarks,
+    parts: Sequence[PieceFeatures],
+    outlines: Sequence[OutlineCorner],
+    rules: FeatureRules,
+) -> tuple[BoundaryMarks, list[OutlineCorner]]:
+    """Lead a knuckle line on to corners of outlines, and give those that it ends at."""
+    found = course
+    corners: list[OutlineCorner] = []
+    for _ in range(2):
+        found = found.reversed()
+        before, last = found.places[-2:]
+        corner = _corner_ahead(before, last, parts, outlines, rules)
+        if corner is not None:
+            corners.append(corner)
+            found = BoundaryMarks(
+                (*found.lines, corner.name), np.concatenate([found.places, corner.place[None]]),
+                np.append(found.doubt, _LEAST_DOUBT), _plane_with(found.plane, corner.place),
+                (found.held[0], True),
+            )  # fmt: skip
+    return found, corners
+
+
+def _corner_ahead(
+    before: FloatArray,
+    last: FloatArray,
+    parts: Sequence[PieceFeatures],
+    outlines: Sequence[OutlineCorner],
+    rules: FeatureRules,
+) -> OutlineCorner | None:
+    """Give the corner that a knuckle line leads to, as from line to line, and no line between."""
+    step = last - before
+    axis = int(np.argmax(np.abs(step)))
+    way = float(np.sign(step[axis]))
+    ahead = [
+        way * (part.line.offset - last[axis]) for part in parts if AXES[part.line.group] == axis
+    ]
+    passed = min((each for each in ahead if each > _SAME), default=np.inf)
+    found: list[tuple[float, int]] = []
+    for i, corner in enumerate(outlines):
+        gap = way * float(corner.place[axis] - last[axis])
+        guess = last + step * min(gap / float(np.abs(step[axis])), 2.0)
+        guess[axis] = corner.place[axis]
+        away = float(np.linalg.norm(corner.place - guess))
+        if 0.0 < gap <= passed and away < rules.chain.drift * gap + rules.chain.slack:
+            found.append((away, i))
+    return outlines[min(found)[1]] if found else None
+
+
+def _plane_with(
+    plane: tuple[FloatArray, float] | None, place: FloatArray
+) -> tuple[FloatArray, float] | None:
+    """Give the plane of a border if a place lies in it too."""
+    near = plane is not None and abs(float(place @ plane[0]) - plane[1]) <= 1e-9
+    return plane if near else None
 
 
 def _split_on(
@@ -382,13 +472,14 @@ def draw_borders(
     knuckles: list[KnuckleTrace],
     rules: FeatureRules,
     tolerance: float,
+    outlines: Sequence[OutlineCorner] = (),
 ) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
     """Draw knuckle lines and the borders of flats; lines have their corners and tangents there.
 
     As `draw_knuckles`; the pieces come back with their straight runs.
     """
     parts = [_measured_again(part) for part in parts]
-    parts, sources, borders = draw_knuckles(parts, knuckles, rules, tolerance)
+    parts, sources, borders = draw_knuckles(parts, knuckles, rules, tolerance, outlines)
     parts = [attrs.evolve(part, runs=runs_of(part, rules)) for part in parts]
     parts, more, flats = draw_flats(parts, rules, tolerance)
     return parts, sources + more, borders + flats

@@ -18,7 +18,12 @@ from assoc_hull.geometry.curves import PointKind
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.lines.slices import ASSOCIATIONS, GapJoin, Gaps, HullSlices, LinePiece
 from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
-from assoc_hull.io.slicing.boundary_curves import BoundaryCurve, draw_borders, loft_source
+from assoc_hull.io.slicing.boundary_curves import (
+    BoundaryCurve,
+    OutlineCorner,
+    draw_borders,
+    loft_source,
+)
 from assoc_hull.io.slicing.features import FeatureRules, KnuckleTrace, find_features, with_arcs
 from assoc_hull.io.slicing.full_size import grown_slices, scaled
 from assoc_hull.io.slicing.loft_sections import is_bare, loft_sections
@@ -226,7 +231,8 @@ def _full_size_sources(
     for source, report in rims:
         borders.setdefault(source.name, []).append(Rim(loft_source(source), report.residual))
     parts = [snap_ends(p, borders, 0.5 * allowed) for p in parts if p.line.group != "boundary"]
-    parts, curves, drawn = draw_borders(parts, knuckles, wanted, allowed)
+    corners = _outline_corners([source for source, _ in rims])
+    parts, curves, drawn = draw_borders(parts, knuckles, wanted, allowed, corners)
     if not parts:
         raise BadInputError(
             "no section, waterline or buttock is left to be adopted", f"in {slices.name}",
@@ -242,6 +248,16 @@ def _full_size_sources(
     # In the order of `sources`: the two are paired.
     reports += [_report_border(each, curve) for each, curve in zip(drawn, curves, strict=True)]
     return sources, reports, knuckles, allowed, drawn
+
+
+def _outline_corners(rims: list[LineSource]) -> list[OutlineCorner]:
+    """Give the corners of boundary curves off the centre plane: a knuckle line may end there."""
+    return [
+        OutlineCorner(rim.name, place)
+        for rim in rims
+        for place in rim.points[1:-1][rim.kind[1:-1] == PointKind.KNUCKLE]
+        if place[1] > _CRUMB
+    ]
 
 
 def _links(groups: set[str]) -> list[Association]:

@@ -1,0 +1,75 @@
+"""Small hulls of straight lines, written as a designer gives them: a table of points by line."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+import assoc_hull as ah
+
+Place = tuple[float, float, float]
+
+LENGTH, HALF, DEPTH = 60.0, 6.0, 4.0
+"""Of the barges; m."""
+
+
+def drawn(places: Sequence[Place], count: int = 41) -> np.ndarray:
+    """Give points at equal steps along straight sides, and every corner, (n, 3)."""
+    corner = np.array(places, float)
+    along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(corner, axis=0), axis=1))]
+    at = np.unique(np.r_[np.linspace(0.0, along[-1], count), along])
+    return np.column_stack([np.interp(at, along, corner[:, k]) for k in range(3)])
+
+
+def written(lines: Sequence[tuple[str, Sequence[Place]]], path: Path) -> Path:
+    """Write lines to a CSV file."""
+    rows = [
+        f"{name},{x:.5f},{y:.5f},{z:.5f}" for name, at in lines for x, y, z in drawn(at).tolist()
+    ]
+    path.write_text("\n".join(["line,x,y,z", *rows, ""]))
+    return path
+
+
+def frame(x: float, keel: float = 0.0) -> list[Place]:
+    """Give the half section of a barge."""
+    return [(x, 0.0, keel), (x, HALF, keel), (x, HALF, DEPTH)]
+
+
+def box_barge(path: Path) -> ah.Hull:
+    """Read a box of 60 x 12 x 4 m with plumb ends, the first station 5 m from each; 2.5 m deep."""
+    lines = [(f"ST {x}", frame(x)) for x in (5.0, 10.0, 20.0, 30.0, 40.0, 50.0, 55.0)]
+    lines += [
+        ("profile", [(0.0, 0.0, 0.0), (LENGTH, 0.0, 0.0)]),
+        ("deck edge", [(0.0, HALF, DEPTH), (LENGTH, HALF, DEPTH)]),
+        ("transom", frame(0.0)), ("bow end", frame(LENGTH)),
+    ]  # fmt: skip
+    return ah.read(written(lines, path / "box.csv"), draught=2.5, ap=0.0, deck="closed")
+
+
+def transom_boat(path: Path) -> ah.Hull:
+    """Read a boat of 24 m with one chine, and a plumb transom that the chine runs into."""
+
+    def half(x: float) -> float:
+        return 2.6 * (1.0 - max(0.0, (x - 8.0) / 16.0) ** 2)
+
+    def keel(x: float) -> float:
+        return 1.6 * max(0.0, (x - 12.0) / 12.0) ** 2
+
+    def deck(x: float) -> Place:
+        return x, half(x) + 0.3 * (1.0 - (x / 24.0) ** 2), 2.6
+
+    def rib(x: float) -> list[Place]:
+        chine = 0.7 + 0.9 * max(0.0, (x - 8.0) / 16.0)
+        return [(x, 0.0, keel(x)), (x, half(x), chine), deck(x)]
+
+    along = np.linspace(0.0, 24.0, 121).tolist()
+    stations = (1.5, 3.0, 5.0, 7.0, 9.0, 11.0, 13.0, 15.0, 16.5, 18.0, 19.5, 21.0, 22.3)
+    lines: list[tuple[str, list[Place]]] = [(f"ST {x:g}", rib(x)) for x in stations]
+    lines += [
+        ("profile", [*((x, 0.0, keel(x)) for x in along), (24.0, 0.0, 2.6)]),
+        ("deck edge", [deck(x) for x in along]),
+        ("transom", rib(0.0)),
+    ]
+    return ah.read(
+        written(lines, path / "boat.csv"), draught=1.0, ap=0.0, deck="closed", accept=True
+    )
