@@ -406,6 +406,7 @@ def vary_document(
         }
         if found.faired is not None:
             edit.notes.append(str(found.faired))
+        edit.variation = script_of(ask)
         edit.varied = values_of_variation(ask, was, found.aimed)
         if not any(step.script.varied for step in document.history):
             edit.varied_before = values_before(document)
