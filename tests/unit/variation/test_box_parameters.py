@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.errors import BadInputError
+from assoc_hull.edit.checks.update_findings import MOVE_ADVICE
+from assoc_hull.errors import BadInputError, RefusedEditError
+from assoc_hull.variation import vary
 from assoc_hull.variation.carrying.admissible_values import (
     AdmissibleValues,
     ListedParameter,
@@ -82,3 +84,22 @@ def test_a_fault_at_one_parameter_leaves_the_list_of_the_others(
     assert (by["depth"].reason or "").startswith("cannot be varied: ")
     assert by["breadth"].reason is None
     assert by["breadth"].low is not None
+
+
+FOLD = "ST 4 folds back on itself at (40.000, 2.040, 2.500) m (cosine -0.20)"
+
+
+def test_a_variation_that_folds_lines_is_answered_with_values_and_not_with_points_to_move(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """What a designer typed is a value, so the advice is one as well."""
+
+    def folding(*_: object) -> None:
+        raise RefusedEditError("vary", (f"{FOLD}{MOVE_ADVICE} or move the neighbouring points",))
+
+    monkeypatch.setattr(vary, "choose_plan", folding)
+    with pytest.raises(RefusedEditError) as caught:
+        ah.examples.wigley().vary(set={"breadth": 900.0})
+    [told] = caught.value.findings
+    assert told.startswith(f"{FOLD}: ask for a breadth from ")
+    assert "point" not in told
