@@ -329,6 +329,10 @@ class NameTakenError(AssocHullError, ValueError):
         return f"a {self.kind} named {self.name!r} exists already; choose another name"
 
 
+_FEW_NAMES = 8
+"""So many names a message gives where none is like the one that was asked for."""
+
+
 @attrs.define(slots=False, eq=False)
 class UnknownNameError(AssocHullError, KeyError):
     """No object of this kind has this name or id."""
@@ -344,8 +348,16 @@ class UnknownNameError(AssocHullError, KeyError):
         if self.meant:
             return f"there is no {self.kind} named {self.name!r}; it is called {self.meant!r}"
         near = difflib.get_close_matches(str(self.name), self.known, n=3, cutoff=0.4)
-        hint = "the nearest names are " + ", ".join(map(repr, near)) if near else "list them first"
+        hint = "the nearest names are " + ", ".join(map(repr, near)) if near else self._all()
         return f"there is no {self.kind} named {self.name!r}; {hint}"
+
+    def _all(self) -> str:
+        """Give the names there are, the first of many."""
+        if not self.known:
+            return "there is none of any name"
+        more = len(self.known) - _FEW_NAMES
+        tail = f" and {more} more" if more > 0 else ""
+        return f"there are {', '.join(map(repr, self.known[:_FEW_NAMES]))}{tail}"
 
 
 @attrs.define(slots=False, eq=False)

@@ -621,13 +621,19 @@ def _replay(arguments: argparse.Namespace) -> int:
     hull = changed.hull
     with progress("replaying"):
         found = hull.replay(source, skip=arguments.skip)
-    changed.save()
     failed = [each for each in found if each.report is None]
     left = len(source.history) - len(found)
+    made = len(found) > len(failed)
+    if made:
+        changed.save()
     facts = {
         "edits": [{"name": e.name, "made": e.report is not None, "why": e.why} for e in found],
-        "left": left, "fingerprint": hull.fingerprint, "saved": changed.target,
+        "left": left, "fingerprint": hull.fingerprint, "saved": changed.target if made else None,
     }  # fmt: skip
     told = [*map(str, found), *([f"{left} more were not tried"] if left else [])]
-    emit(arguments, facts, "\n".join([*told, f"written: {changed.target}"]))
+    if made:
+        told.append(f"written: {changed.target}")
+    else:
+        told.append("nothing written" if failed else f"{arguments.source} has no edits to make")
+    emit(arguments, facts, "\n".join(told))
     return 1 if failed else 0

@@ -16,7 +16,7 @@ from assoc_hull.arguments import number, place, shown, shown_name
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.plane import AXES
-from assoc_hull.model.address import ResolvedAddress, resolve_address
+from assoc_hull.model.address import AddressBook, ResolvedAddress, address, resolve_address
 from assoc_hull.model.kinds import OWN
 from assoc_hull.model.links import live_group, named_lines
 from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point, is_in, numbers_of
@@ -211,8 +211,23 @@ class GivenObjects:
         """Give the row of a point and its side: 0 on its first curve, 1 on its second."""
         found = self._found(point, Point, "point")
         if found.row < 0:
-            raise UnknownNameError("point", str(point))
+            raise UnknownNameError("point", str(point), self._points_of(found))
         return found.row, found.side
+
+    def _points_of(self, found: ResolvedAddress) -> tuple[str, ...]:
+        """Give the points on what was named in place of a point."""
+        lines = self.tables.lines.curves
+        curves = [found.curve] if found.curve >= 0 else lines[found.line] if found.line >= 0 else ()
+        rows = self.tables.rows
+        on = rows.alive.data & np.isin(rows.curve.data, np.array(curves, np.int64)).any(axis=1)
+        return tuple(address(self.tables, row) for row in np.flatnonzero(on).tolist())
+
+    def _lines_of(self, found: ResolvedAddress) -> tuple[str, ...]:
+        """Give the lines of the group that was named in place of a line, else all of them."""
+        tables, book = self.tables, AddressBook(self.tables)
+        live = tables.live("lines").tolist()
+        own = [i for i in live if found.line < 0 and tables.lines.group[i] == found.group]
+        return tuple(book.line_name(i) for i in own or live)
 
     def led_point(self, asked: object) -> tuple[int | None, FloatArray]:
         """Take a place, or a point and the place where it is to come: its row or None, (3,), m."""
@@ -239,7 +254,7 @@ class GivenObjects:
         """Give the number of a curve, or those of all curves of a line."""
         found = self._found(line, Curve if isinstance(line, Curve) else Line, "line")
         if found.line < 0 or found.row >= 0:
-            raise UnknownNameError("line", str(line))
+            raise UnknownNameError("line", str(line), self._lines_of(found))
         if found.curve >= 0:
             return [found.curve]
         return [int(each) for each in self.tables.lines.curves[found.line]]
@@ -248,14 +263,14 @@ class GivenObjects:
         """Give the number of a line."""
         found = self._found(line, Line, "line")
         if found.line < 0 or found.curve >= 0:
-            raise UnknownNameError("line", str(line))
+            raise UnknownNameError("line", str(line), self._lines_of(found))
         return found.line
 
     def line_of(self, line: Line | Curve | str) -> int:
         """Give the number of a line, or of the line that a curve belongs to."""
         found = self._found(line, Curve if isinstance(line, Curve) else Line, "line")
         if found.line < 0 or found.row >= 0:
-            raise UnknownNameError("line", str(line))
+            raise UnknownNameError("line", str(line), self._lines_of(found))
         return found.line
 
     def _found(self, thing: object, kind: type[Point | Curve | Line], what: str) -> ResolvedAddress:

@@ -17,7 +17,7 @@ import contextlib
 import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import wraps
-from typing import Concatenate, ParamSpec, Protocol, Self, TypeVar
+from typing import Any, Concatenate, ParamSpec, Protocol, Self, TypeVar
 
 import attrs
 import numpy as np
@@ -144,6 +144,9 @@ class Script:
     before : VariedValues
         What the hull had been given before its history began, in that of the hull it was copied
         from; told by the first variation alone.
+    variation : dict or None
+        What it was asked for as a variation, as `Hull.vary_by` takes it; None if it is none, or
+        if nothing tells it.
     """
 
     edits: tuple[dict[str, Said], ...] = ()
@@ -151,20 +154,27 @@ class Script:
     gaps: str = "refuse"
     varied: VariedValues = attrs.field(factory=VariedValues)
     before: VariedValues = attrs.field(factory=VariedValues)
+    variation: dict[str, Any] | None = None
 
     @classmethod
     def of(
         cls, edits: Sequence[dict[str, Said]], settings: Settings, varied: VariedValues,
-        before: VariedValues,
+        before: VariedValues, variation: Mapping[str, Any] | None = None,
     ) -> Self:  # fmt: skip
         """Put a script together."""
         gaps = "refuse" if settings.refuse_gaps else "report"
-        return cls(tuple(edits), settings.policy.value, gaps, varied, before)
+        asked = None if variation is None else dict(variation)
+        return cls(tuple(edits), settings.policy.value, gaps, varied, before, asked)
 
     @property
     def repeatable(self) -> bool:
-        """Whether the edit can be asked for again: something tells all that was asked for."""
-        return bool(self.edits) and ANY_FUNCTION not in _all_values(self.edits)
+        """Whether modifications tell all that was asked for, so that it can be asked again."""
+        return bool(self.edits) and not self.with_function
+
+    @property
+    def with_function(self) -> bool:
+        """Whether a modification was given a function, which nothing tells."""
+        return ANY_FUNCTION in _all_values(self.edits)
 
 
 def _all_values(value: object) -> Iterator[object]:

@@ -10,13 +10,13 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
-from typing import Literal
+from typing import Any, Literal
 
 import attrs
 
 from assoc_hull.arguments import shown, shown_name
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.recording import WRITTEN_OUT, Settings
+from assoc_hull.edit.recording import WRITTEN_OUT, Script, Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.step import Step
@@ -104,7 +104,8 @@ def operations() -> Mapping[str, inspect.Signature]:
 # --------------------------------------------------------------------------------------
 # Replay.
 
-_UNKNOWN = "it was given a function, or was not made through the public methods: nothing tells it"
+Vary = Callable[[Mapping[str, Any]], EditReport]
+"""Varies the hull in place by a script of `Hull.vary_by`."""
 
 
 @attrs.frozen
@@ -130,27 +131,46 @@ class Replayed:
 
 
 def replay(
-    document: Document, steps: Sequence[Step], *, skip: bool = False
+    document: Document, steps: Sequence[Step], *, skip: bool = False, vary: Vary | None = None
 ) -> tuple[Replayed, ...]:
     """Make edits of this or another hull again, each as one step, in their order.
 
-    Stops at the first that cannot be made, or goes on behind it if `skip`.
+    Stops at the first that cannot be made, or goes on behind it if `skip`. Variations are made by
+    `vary`.
     """
     found: list[Replayed] = []
     for step in tuple(steps):  # on the same hull, the history grows meanwhile
-        found.append(_again(document, step))
+        found.append(_again(document, step, vary))
         if found[-1].report is None and not skip:
             break
     return tuple(found)
 
 
-def _again(document: Document, step: Step) -> Replayed:
+def _again(document: Document, step: Step, vary: Vary | None) -> Replayed:
     script = step.script
-    if not script.repeatable:
-        return Replayed(step.name, None, _UNKNOWN)
     try:
+        if script.variation is not None and vary is not None:
+            return Replayed(step.name, vary(script.variation))
+        if not script.repeatable:
+            return Replayed(step.name, None, _untold(script))
         with Edit(document, step.name, Settings.named(script.policy, script.gaps)) as edit:
             carry_out(edit, script.edits)
     except AssocHullError as error:
         return Replayed(step.name, None, str(error))
     return Replayed(step.name, edit.report)
+
+
+def _untold(script: Script) -> str:
+    """Say why nothing tells what an edit was asked for, and what makes it all the same."""
+    if script.with_function:
+        return "it was given a function, and a function cannot be told: edit this hull with it"
+    if script.varied:
+        asked = " ".join(f"{name}={value:.10g}" for name, value in script.varied.set.items())
+        return (
+            "the file does not tell all that this variation was asked for (layers given in Python, "
+            f"or a file of an older version): vary this hull again{asked and f', by {asked}'}"
+        )
+    return (
+        "it is made of no modifications, as jumboise and edits inside the program are: make it "
+        "again by the command or method that made it"
+    )

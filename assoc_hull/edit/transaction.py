@@ -6,10 +6,10 @@ error. Whatever goes wrong, the journal takes every write back, to the last bit.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 import attrs
 import numpy as np
@@ -100,6 +100,7 @@ class Transaction:
         self._extents: list[Extent] = []
         self._dirty: tuple[tuple[int, int, int], DirtyNodes] | None = None
         self.varied = self.varied_before = VariedValues()
+        self.variation: Mapping[str, Any] | None = None  # as a script has it
         self._told: EditReport | None = None
         self._step: Step | None = None
         self._depth = 0
@@ -417,7 +418,9 @@ class Transaction:
             self.pending.notes += self._sizes()
             step = update(self.document, self.name, self.journal, self.pending, self.settings)
         self._refuse_lost_tunnels()
-        step.script = Script.of(self.script, self.settings, self.varied, self.varied_before)
+        step.script = Script.of(
+            self.script, self.settings, self.varied, self.varied_before, self.variation
+        )
         if self.look is None:
             if (known := self.pending.numbers) is not None:
                 step.change = known.change()

@@ -585,7 +585,10 @@ class Hull:
         from assoc_hull.edit.script import replay
 
         steps = instance(other, Hull, "other", "in replay").document.history
-        return replay(self.document, steps, skip=flag(skip, "skip", "in replay"))
+        return replay(
+            self.document, steps, skip=flag(skip, "skip", "in replay"),
+            vary=lambda script: self.vary_by(script, in_place=True).report.edit,
+        )  # fmt: skip
 
     def __getitem__(self, address: str) -> Named:
         """Give what an address names: a line, point, curve, group, tunnel or body; as `find`."""

@@ -8,13 +8,15 @@ planes that went along, values that changed as well.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import attrs
 import numpy as np
 
 from assoc_hull.display import ShownAsText
+from assoc_hull.edit.checks.update_findings import MOVE_ADVICE
 from assoc_hull.edit.document import Document, end_if_stopped
 from assoc_hull.edit.mapped_planes import IN_PLANE
 from assoc_hull.edit.report import EditReport
@@ -35,7 +37,7 @@ from assoc_hull.variation.parameters.hull_and_end_measures import drawn_breadth
 from assoc_hull.variation.parameters.paper_regions import regions_of
 from assoc_hull.variation.parameters.parameter_fields import shift_terminals
 from assoc_hull.variation.parameters.parameter_measures import measure_all
-from assoc_hull.variation.parameters.parent import Parent
+from assoc_hull.variation.parameters.parent import Parent, cannot_vary
 from assoc_hull.variation.parameters.value_limits import present_values
 from assoc_hull.variation.plan_choice import KINK, beyond_fair, choose_plan, parent_fairness
 from assoc_hull.variation.request import VariationRequest, script_of, title_of
@@ -169,16 +171,34 @@ def _refuse_unfair(
     if len(beyond) > _NAMED:
         lines += f" and {len(beyond) - _NAMED} more lines"
     edit.take_back()  # what may be asked for is sought on the parent
+    raise RefusedEditError(ask.name, (
+        f"lines would bend more sharply than they do, by their combs: {lines}; "
+        f"{_fair_values(ask, room)}, or take the hull as it is with accept=True (--accept)",
+    ))  # fmt: skip
+
+
+def _fair_values(ask: VariationRequest, room: AdmissibleValues) -> str:
+    """Say what to ask for instead of values beyond those at which lines stay fair."""
     remedies = []
     for name, value in ask.values.items():
         low, high = room.fair_interval(name)
         if not low <= value <= high:
             remedies.append(f"ask for a {name} {room.fair_words(name)}, where lines stay fair")
-    remedies = remedies or ["ask for less"]
-    raise RefusedEditError(ask.name, (
-        f"lines would bend more sharply than they do, by their combs: {lines}; "
-        f"{' and '.join(remedies)}, or take the hull as it is with accept=True (--accept)",
-    ))  # fmt: skip
+    return " and ".join(remedies or ["ask for less"])
+
+
+@contextmanager
+def _advised(document: Document, ask: VariationRequest) -> Iterator[None]:
+    """Give a refusal of the carried hull the advice of a variation: no point was moved by hand."""
+    try:
+        yield
+    except RefusedEditError as error:
+        if not any(MOVE_ADVICE in each for each in error.findings):
+            raise
+        room = AdmissibleValues.of(document.state, ask.layout, ask.tolerance)
+        advice = _fair_values(ask, room)
+        first, *others = (each.partition(MOVE_ADVICE)[0] for each in error.findings)
+        raise RefusedEditError(error.edit, (f"{first}: {advice}", *others)) from None
 
 
 def shifted_without_body(
@@ -402,14 +422,12 @@ def vary_document(
     BadInputError, FoldError, RefusedEditError
         What is asked for cannot be had; the hull is unchanged.
     """
-    with Transaction(document, ask.name) as edit:
+    with _advised(document, ask), Transaction(document, ask.name) as edit:
         room = AdmissibleValues.of(edit.state, ask.layout, ask.tolerance)
         parent, was = room.parent, room.present
         for name in ask.values:
             if name in parent.absent:
-                raise BadInputError(
-                    f"cannot vary '{name}': {parent.absent[name]}", "in vary", "leave it out"
-                )
+                raise cannot_vary(name, parent.absent[name])
         room.check(ask.values)
         levels = edit.state.lines.offset.data.copy()
         beside = moved_by_ratios(
@@ -427,6 +445,7 @@ def vary_document(
         }
         if found.faired is not None:
             edit.notes.append(str(found.faired))
+        edit.variation = script_of(ask)
         edit.varied = values_of_variation(ask, was, found.aimed)
         if not any(step.script.varied for step in document.history):
             edit.varied_before = values_before(document)

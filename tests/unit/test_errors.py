@@ -295,7 +295,13 @@ def test_equal_facts_do_not_make_one_error_of_two(error: AssocHullError) -> None
     [
         pytest.param(
             errors.UnknownNameError("line", "profile"),
-            "there is no line named 'profile'; list them first",
+            "there is no line named 'profile'; there is none of any name",
+            id="unknown name with nothing there",
+        ),
+        pytest.param(
+            errors.UnknownNameError("line", "Q", tuple(f"ST {k}" for k in range(10))),
+            "there is no line named 'Q'; there are 'ST 0', 'ST 1', 'ST 2', 'ST 3', 'ST 4', 'ST 5', "
+            "'ST 6', 'ST 7' and 2 more",
             id="unknown name with nothing near",
         ),
         pytest.param(

@@ -23,6 +23,7 @@ from assoc_hull.model.kinds import BoundaryKind, Sort
 from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = [
+    "MOVE_ADVICE",
     "WideGaps",
     "curve_title",
     "ends_at_risk",
@@ -66,6 +67,10 @@ class WideGaps:
     mend: IntArray
 
 
+MOVE_ADVICE = ": make the move smaller"
+"""Where the advice begins that fits who moves points, and nobody else."""
+
+
 def splines_of(state: HullState, curves: IntArray) -> SplineBatch | None:
     """Give the splines of curves as one batch, for the findings below; None of no curves."""
     if not len(curves):
@@ -97,7 +102,7 @@ def find_folds(
         x, y, z = batch.xyz[batch.start[local] + found.knot[mine][0]].tolist()
         findings.append(
             f"{curve_title(state, curve)} folds back on itself at ({x:.3f}, {y:.3f}, {z:.3f}) m "
-            f"(cosine {float(found.cosine[mine].min()):.2f}): make the move smaller or move the "
+            f"(cosine {float(found.cosine[mine].min()):.2f}){MOVE_ADVICE} or move the "
             "neighbouring points too"
         )
     return tuple(findings)

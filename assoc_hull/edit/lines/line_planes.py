@@ -35,8 +35,14 @@ _DIAGONALS = "diagonals"
 _ROUNDED = 1e-12
 """So far (m) from an inclined plane the rounding of coordinates alone may leave a place."""
 
-_GIVERS = ("boundary", "sections")
-"""The groups whose lines a group of diagonals is cut from, and which it shapes in turn."""
+_PARTNERS = {
+    "sections": ("boundary", "waterlines", "buttocks"),
+    "waterlines": ("boundary", "sections", "buttocks"),
+    "buttocks": ("boundary", "sections", "waterlines"),
+    _DIAGONALS: ("boundary", "sections"),
+}
+"""The groups that a group is made with by its first line, and those among whose lines that line is
+cut and which it shapes in turn."""
 
 
 @attrs.frozen(eq=False)
@@ -63,27 +69,31 @@ class CuttingPlane:
 
 
 def ready_group(edit: Transaction, name: object, position: ArrayLike) -> str:
-    """Take the name of a group for a new line; the first diagonal brings its group along.
+    """Take the name of a group for a new line; the first line of a family brings its group along.
 
     Raises
     ------
     UnknownNameError
         No such group.
     BadInputError
-        No position of a diagonal, where the group would be made for it.
+        No position of a line, where the group would be made for it.
     """
     state, group = edit.state, word(name, "the group", "in add_line")
     names = state.groups.name.data
     if group in names:
         return group
-    if group != _DIAGONALS:
-        raise UnknownNameError("group", group, (*names, _DIAGONALS))
-    _inclined(len(names), group, position)
+    if group not in _PARTNERS:
+        raise UnknownNameError("group", group, tuple(dict.fromkeys((*names, *_PARTNERS))))
+    if group == _DIAGONALS:
+        _inclined(len(names), group, position)
+    else:
+        number(position, "position", f"for a line of {group}")
     edit.pending.structural = True
     edit.maker.group(group, group)
-    for giver in _GIVERS:
-        if giver in names:
-            edit.maker.associate(Association(giver, group))
+    for partner in _PARTNERS[group]:
+        if partner in names:
+            pair = sorted((partner, group), key=lambda each: FAMILIES[each].rank)
+            edit.maker.associate(Association(*pair))
     return group
 
 

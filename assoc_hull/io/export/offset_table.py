@@ -294,14 +294,11 @@ def offsets_of(state: HullState, book: ExportBook) -> OffsetCells:
             "there are no sections", f"in {state.particulars.name}", "cut two or more"
         )
     boundary = boundary_curves(state)
+    drawn = len(sections.at), len(levels.at)
     sections = with_ends(sections, boundary)
     levels = with_levels(levels, boundary)
     x = exported_station_places(state, sections, boundary)
-    if len(x) < 2 or len(levels.at) < 2:
-        raise BadInputError(
-            f"there are {len(x)} stations and {len(levels.at)} waterlines",
-            f"in {state.particulars.name}", "cut two or more of each, or choose another form",
-        )  # fmt: skip
+    _require_two(state, drawn, (len(x), len(levels.at)))
     # A perpendicular may have no section: there keel and deck come from these.
     every = [*boundary, *levels.curves]
     breadth = _half_breadths(x, sections, levels, book)
@@ -323,6 +320,22 @@ def offsets_of(state: HullState, book: ExportBook) -> OffsetCells:
     book.points += int(np.isfinite(breadth).sum())
     _tell_boundary(state, book)
     return OffsetCells(_comments(state, x, stations, breadth, len(levels.at), book), blocks)
+
+
+def _require_two(state: HullState, drawn: tuple[int, int], rows: tuple[int, int]) -> None:
+    """Refuse a table of fewer than two stations or waterlines; say how to cut more."""
+    for group, word, there, count, place in zip(
+        ("sections", "waterlines"), ("section", "waterline"), drawn, rows,
+        (0.5 * state.particulars.length, state.particulars.draught), strict=True,
+    ):  # fmt: skip
+        if count < 2:
+            level = f" and {count - there} level boundary curve" if count > there else ""
+            raise BadInputError(
+                f"the hull has {there} {word}{'s' * (there != 1)}{level}, and a table of offsets "
+                f"needs two", f"in {state.particulars.name}",
+                f"add {group} (`assoc-hull edit HULL add_line {group} {place:.6g}`), or choose "
+                "another form",
+            )  # fmt: skip
 
 
 _WANTED = (("sections", 0), ("waterlines", 2), ("buttocks", 1))

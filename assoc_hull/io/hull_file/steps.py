@@ -407,7 +407,10 @@ def step_digest(row: tuple[Any, ...]) -> str:
 
 def script_text(script: Script) -> str:
     """Give what an edit was asked for as JSON."""
-    return json.dumps(attrs.asdict(script), separators=(",", ":"))
+    said = attrs.asdict(script)
+    if script.variation is None:
+        del said["variation"]
+    return json.dumps(said, separators=(",", ":"))
 
 
 def script_from(text: str) -> Script:
@@ -421,7 +424,10 @@ def script_from(text: str) -> Script:
     said = parse_json(text)
     # files of older versions do not tell what a variation gave the hull
     varied, before = (VariedValues(**said.get(name, {})) for name in ("varied", "before"))
-    return Script(tuple(map(dict, said["edits"])), said["policy"], said["gaps"], varied, before)
+    return Script(
+        tuple(map(dict, said["edits"])), said["policy"], said["gaps"], varied, before,
+        said.get("variation"),
+    )  # fmt: skip
 
 
 def report_text(report: EditReport) -> str:

@@ -685,9 +685,11 @@ def _by_number(sheet: OffsetSheet, book: Notebook) -> OffsetSheet:
 def _sort_out(sheets: list[OffsetSheet], source: str) -> tuple[OffsetSheet, OffsetSheet | None]:
     mains = [sheet for sheet in sheets if sheet.columns.waterlines]
     extras = [sheet for sheet in sheets if not sheet.columns.waterlines]
+    if not mains:
+        raise _no_waterlines(extras, source)
     if len(mains) != 1 or len(extras) > 1:
         raise BadInputError(
-            f"{len(mains)} block(s) hold waterlines and {len(extras)} do not",
+            f"{_blocks(len(mains))} waterlines and {len(extras)} none",
             source,
             "give one block with columns wl_<height> and at most one with columns bt_<y>",
         )
@@ -701,6 +703,27 @@ def _sort_out(sheets: list[OffsetSheet], source: str) -> tuple[OffsetSheet, Offs
     if not np.any(np.nan_to_num(mains[0].offsets) != 0.0):
         raise BadInputError("no half-breadth is above 0", source, "give half-breadths")
     return mains[0], extras[0] if extras else None
+
+
+def _blocks(count: int) -> str:
+    return "1 block holds" if count == 1 else f"{count} blocks hold"
+
+
+_NAMED = 4
+"""So many names of columns that are not understood are quoted."""
+
+
+def _no_waterlines(sheets: list[OffsetSheet], source: str) -> BadInputError:
+    """Give the error of a table without waterlines: which names of columns say nothing known."""
+    heads = [each for sheet in sheets for each in sheet.block.header[1:]]
+    strange = [each for each in heads if each and column_name(each) is None]
+    what = "no column is named as a waterline"
+    if strange:
+        quoted = ", ".join(map(repr, strange[:_NAMED]))
+        more = f" and {len(strange) - _NAMED} more" if len(strange) > _NAMED else ""
+        what += f", and these names are not understood: {quoted}{more}"
+    remedy = "call each waterline wl_ and its height, as wl_0.5, or give its bare height as 0.5 m"
+    return BadInputError(what, source, remedy)
 
 
 def _to_port(sheet: OffsetSheet, book: Notebook) -> OffsetSheet:

@@ -44,7 +44,7 @@ _UNIT_END = re.compile(rf"(?P<name>.*?[a-z0-9.])_?(?P<unit>{_WORDS})")
 _UNIT_AFTER = re.compile(rf"(?P<name>.+)_(?P<unit>{_WORDS})")
 
 _FAMILY = {
-    "waterline": r"w\.?l\.?|water_?lines?|z|height|level",
+    "waterline": r"w\.?l\.?|water_?lines?|wasserlinien?|z|height|level|draught|draft",
     "buttock": r"bt|btk|buttocks?|butt",
 }
 _NUMBERED = {

@@ -442,6 +442,14 @@ def _listed(name: str, found: Measures, room: AdmissibleValues, limited: bool) -
             low, high, fair_low, fair_high = (x if math.isfinite(x) else None for x in ends)
         except BadInputError as error:
             reason = f"cannot be varied: {error.what.partition(': ')[2] or error.what}"
+        except Exception as error:  # a fault at one parameter must not lose the list of the others
+            told = str(error) if isinstance(error, AssocHullError) else (
+                f"{type(error).__name__} inside the program ({error}): report it"
+            )  # fmt: skip
+            reason = f"cannot be varied: {told}"
+        else:
+            if not ends[1] - ends[0] > SAME:
+                reason = f"cannot be varied: the map folds as soon as it leaves {value:.4g}"
     beside = drawn_breadth(found.anchors[name]) if name == "breadth" else ()
     return ListedParameter(
         name, entry.unit, "; ".join((entry.meaning, *beside)), value, low, high,

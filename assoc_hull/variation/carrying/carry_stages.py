@@ -17,13 +17,14 @@ from assoc_hull.edit.document import end_if_stopped
 from assoc_hull.edit.nudge import Nudge
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.errors import AssocHullError
 from assoc_hull.variation.carrying.admissible_values import SAME, AdmissibleValues
 from assoc_hull.variation.carrying.carry_hull import AppliedMap, carry_map
 from assoc_hull.variation.certificate.fold_check import Certificate
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
+from assoc_hull.variation.parameters.parent import cannot_vary
 from assoc_hull.variation.parameters.stages import Plan, Stage, refined_plan
 from assoc_hull.variation.request import VariationRequest
 
@@ -225,7 +226,7 @@ class StagedCarry:
     def _present(self, room: AdmissibleValues, name: str) -> float:
         if name not in room.present:
             why = room.parent.absent.get(name, "the hull has none")
-            raise BadInputError(f"cannot vary '{name}': {why}", "in vary", "leave it out")
+            raise cannot_vary(name, why)
         return room.present[name]
 
     def _room(self) -> AdmissibleValues:

@@ -88,6 +88,9 @@ class ComparedHull:
     doubts: tuple[str, ...]
 
 
+_OUT_OF_MEASURE = 1e4
+"""A ratio of combs as large as this has no decimals."""
+
 _SHARPER = 2.5
 """Times the comb integral of the parent's line, above which a line is told to be less fair."""
 
@@ -351,9 +354,14 @@ def line_cells(line: LineComparison) -> list[str]:
         "-" if shift is None else ", ".join(f"{each:.2f}" for each in shift.after),
         "-" if plane is None else f"{1e3 * plane:+.1f}" if plane else "0",
         "-" if fair is None else f"{fair.before.sign_changes} > {fair.after.sign_changes}",
-        "-" if ratio is None else f"{ratio:.3f}",
+        "-" if ratio is None else _ratio_words(ratio),
         f"{line.points[0]} > {line.points[1]}",
     ]
+
+
+def _ratio_words(ratio: float) -> str:
+    """Give a ratio; of one that is out of all measure, how large it is."""
+    return f"{ratio:.3f}" if ratio < _OUT_OF_MEASURE else f"{ratio:.2g}"
 
 
 def visibly_moved(found: HullComparison) -> tuple[LineComparison, ...]:
@@ -378,8 +386,8 @@ def line_words(found: HullComparison) -> Iterator[str]:
         worst = fair.worst_line
         yield (
             f"fairness of {len(fair.changed)} lines that changed: {fair.before} > {fair.after} "
-            f"changes of sign, comb ratio {fair.median:.3f}"
-            + ("" if worst is None else f", worst {fair.worst:.3f} ({worst.name})")
+            f"changes of sign, comb ratio {_ratio_words(fair.median)}"
+            + ("" if worst is None else f", worst {_ratio_words(fair.worst)} ({worst.name})")
         )
 
 
@@ -534,8 +542,9 @@ def _comb_words(line: LineComparison) -> str:
     """Say by how much the comb integral has risen; of a line that was straight, to what."""
     if line.comb_ratio is None:
         return "of no parent"
-    if math.isinf(line.comb_ratio) and line.fairness is not None:
-        return f"0 > {line.fairness.after.comb:.3g} 1/m3"
+    fair = line.fairness
+    if fair is not None and fair.before.comb <= fair.before.least_comb:
+        return f"0 > {fair.after.comb:.3g} 1/m3"
     return f"{line.comb_ratio:.3g} times"
 
 

@@ -19,6 +19,7 @@ Examples
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 
@@ -45,6 +46,10 @@ __all__ = [
     "compare_fairness",
     "measure_fairness",
 ]
+
+_WAVE = 2e-3
+"""m: height of one wave along a line that nobody sees, as far as a driver may leave its image by
+default."""
 
 _VIEWS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
 """A curve in space is seen from the side and from above; what both show is added."""
@@ -86,6 +91,13 @@ class LineFairness:
         """Tell whether its curvature stays within the dead band."""
         return self.greatest <= DEAD_BAND
 
+    @property
+    def least_comb(self) -> float:
+        """Comb integral, 1/m3, below which nobody sees any: that of a wave within the tolerance."""
+        if not self.length:
+            return 0.0
+        return 0.5 * _WAVE**2 * (2.0 * math.pi / self.length) ** 6 * self.length
+
 
 @attrs.frozen(eq=False)
 class FairnessChange:
@@ -111,12 +123,16 @@ class FairnessChange:
 
     @property
     def comb_ratio(self) -> float:
-        """Comb integral varied / parent; nan where both are straight within the dead band."""
+        """Comb integral varied / parent; nan where both are straight within the dead band.
+
+        Combs that nobody sees count as the least that is seen: the parent's may be rounding alone.
+        """
         if self.before.is_straight and self.after.is_straight:
             return float("nan")
-        if self.before.comb == 0.0:
-            return 1.0 if self.after.comb == 0.0 else float("inf")
-        return self.after.comb / self.before.comb
+        before, after = (max(each.comb, each.least_comb) for each in (self.before, self.after))
+        if before == 0.0:
+            return 1.0 if after == 0.0 else float("inf")
+        return after / before
 
     @property
     def shape_ratio(self) -> float:

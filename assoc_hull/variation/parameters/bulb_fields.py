@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.field import AffinePiece, StackedField, Tube, level_boundaries
 from assoc_hull.variation.parameters.field_layout import Layout, Share
 from assoc_hull.variation.parameters.measurement import SectionFrames
 from assoc_hull.variation.parameters.parameter_fields import bow_fade, bulb_walls
-from assoc_hull.variation.parameters.parent import Parent
+from assoc_hull.variation.parameters.parent import Parent, cannot_vary
 
 __all__ = ["bulb_area_field", "bulb_section_height_field"]
 
@@ -67,7 +66,7 @@ def _frame(parent: Parent, name: str) -> SectionFrames:
     frame = parent.bulb()
     if not len(frame.x):
         why = parent.absent.get(name, "the parent has no section at FP")
-        raise BadInputError(f"cannot vary '{name}': {why}", "in vary", "leave it out")
+        raise cannot_vary(name, why)
     return frame
 
 

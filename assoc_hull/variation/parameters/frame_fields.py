@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.bounded_functions import BlendChain, Contour
 from assoc_hull.variation.fields.field import AffinePiece, StackedField, Tube, level_boundaries
 from assoc_hull.variation.parameters.field_layout import Layout, Share
 from assoc_hull.variation.parameters.hull_and_end_measures import FRAMES
 from assoc_hull.variation.parameters.measurement import SectionFrames
-from assoc_hull.variation.parameters.parent import Parent
+from assoc_hull.variation.parameters.parent import Parent, cannot_vary
 
 __all__ = ["aft_frame_height_field", "fore_frame_height_field"]
 
@@ -26,6 +25,10 @@ has faded out."""
 
 _TUBE = 2.0
 """Half-breadths are changed in full up to this part of that of the ship, and less beyond."""
+
+_WEAK = 1e-3
+"""A field of strength 1 that moves the centre by less than this part of its height moves nothing:
+it would have to fold the ship before it is seen."""
 
 _SPREAD = 0.02
 """So far (in parts of Lpp) the section that is measured lies from both ends of the field."""
@@ -53,11 +56,16 @@ def _frame_height(
     middle, frames = FRAMES[name] * parent.length, parent.frames()
     room = _SPREAD * parent.length
     inside = np.flatnonzero((frames.x > ends[0]) & (frames.x < ends[1]))
-    if not ends[0] + room < middle < ends[1] - room or len(inside) < 2:
-        raise BadInputError(
-            f"cannot vary '{name}': the section at {middle:.6g} m does not stand between the "
-            f"parallel body and the end of the ship, {ends[0]:.6g} to {ends[1]:.6g} m", "in vary",
-            "vary other parameters",
+    if not ends[0] + room < middle < ends[1] - room:
+        raise cannot_vary(
+            name, f"its field lies between the parallel body and the end of the ship, x = "
+            f"{ends[0]:.6g} to {ends[1]:.6g} m, and the section at x = {middle:.6g} m that it is "
+            f"measured at does not stand {room:.3g} m inside",
+        )  # fmt: skip
+    if len(inside) < 2:
+        raise cannot_vary(
+            name, f"{len(inside)} sections stand between x = {ends[0]:.6g} and {ends[1]:.6g} m, "
+            "and it takes two to tell how area shifts", "add sections there",
         )  # fmt: skip
     course = BlendChain.through([ends[0], middle, ends[1]], [0.0, 1.0, 0.0], layout.curve, name)
     tube = Tube(0.5 * parent.breadth / _TUBE, _TUBE, layout.curve)
@@ -109,6 +117,11 @@ def _share(
     height, area = frames.heights, frames.areas
     lever = frames.xyz[:, 2] - np.repeat(height, np.diff(frames.start))
     answer = float((weights * frames.sums(lever * moved) / area).sum())
+    if not abs(answer) > _WEAK * float((weights * height).sum()):
+        raise cannot_vary(
+            name, f"the section at x = {middle:.6g} m is as broad as the ship at all heights, and "
+            "where the side is that far out nothing moves",
+        )  # fmt: skip
     strength = (asked - float((weights * height).sum())) / answer
     nearest = int(weights.argmax())
     mine = slice(int(frames.start[nearest]), int(frames.start[nearest + 1]))

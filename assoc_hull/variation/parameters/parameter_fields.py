@@ -30,7 +30,7 @@ from assoc_hull.variation.fields.shift_shapes import Bump
 from assoc_hull.variation.parameters.field_layout import Layout, Share
 from assoc_hull.variation.parameters.paper_fields import bossing_ratios, shaft_ratios
 from assoc_hull.variation.parameters.paper_regions import regions_of
-from assoc_hull.variation.parameters.parent import Parent
+from assoc_hull.variation.parameters.parent import Parent, cannot_vary
 
 __all__ = [
     "aft_shift_field",
@@ -179,8 +179,17 @@ def _shift(name: str, chain: BlendChain, change: float, place: float, layout: La
 
 def _middle(parent: Parent, name: str) -> tuple[float, float]:
     """Give both ends of the parallel middle body, m from AP."""
-    start, end = parent.at("body start", name), parent.at("body end", name)
-    return float(start[0]), float(end[0])
+    start, end = (float(parent.at(each, name)[0]) for each in ("body start", "body end"))
+    for reaches, what in (
+        (name != "parallel_body_end" and not start > 0.0, "AP"),
+        (name != "parallel_body_start" and not end < parent.length, "FP"),
+    ):
+        if reaches:
+            raise cannot_vary(
+                name, f"the parallel body, x = {start:.6g} to {end:.6g} m, reaches the {what}, and "
+                "leaves no sections beyond it to be shifted",
+            )  # fmt: skip
+    return start, end
 
 
 def parallel_body_start_field(parent: Parent, asked: float, layout: Layout) -> Share:
@@ -376,6 +385,9 @@ _BOSS = {"boss-": (_HIGHEST, 0.0), "boss+": (0.0, _HIGHEST)}
 _SLENDER = 1.25
 """Where the ship is broader than the transom by this factor, a tube keeps its sides as they are."""
 
+_ALIKE = 1e-6
+"""m: tangents that differ by less are those of a circle; heights that do are one."""
+
 _FOOT = {"transom foot": (_WINDOW, 0.0), "transom": (0.5, 0.5)}
 """A long slow bend from the foot up; nothing of it lies above the foot."""
 
@@ -447,12 +459,22 @@ def bossing_radius_field(parent: Parent, asked: float, layout: Layout) -> Share:
     return Share.at(name, "y", asked - y, side, out, up)
 
 
+def _above_base(name: str, z: float) -> None:
+    """Refuse a transom from the base line up: its fields fade out below its lowest point."""
+    if not z > _ALIKE:
+        raise cannot_vary(
+            name, f"the transom reaches down to the base line (z = {z:.4g} m), and the change has "
+            "no height below it to fade out in",
+        )  # fmt: skip
+
+
 def transom_height_field(parent: Parent, asked: float, layout: Layout) -> Share:
     """Raise the transom's lowest point; what lies above it, the deck included, moves along."""
     name = "transom_height"
     low = parent.at("transom", name)
     x, z = float(low[0]), float(low[2])
     foot = min(layout.transom_low * parent.draught, 0.5 * z)
+    _above_base(name, z)
     anchors = [("transom foot", foot, 0.0), ("transom", z, asked - z)]
     fade = _stern_fade(layout, x, layout.stern * parent.length)
     regions = regions_of(parent, layout)
@@ -471,6 +493,7 @@ def transom_half_breadth_field(parent: Parent, asked: float, layout: Layout) -> 
     side, low = parent.at("transom side", name), parent.at("transom", name)
     x, y, z = float(low[0]), float(side[1]), float(low[2])
     foot = min(layout.transom_side * parent.draught, 0.5 * z)
+    _above_base(name, z)
     fade = _stern_fade(layout, x, layout.stern * parent.length)
     pieces = AffinePiece.along(fade, 0.0, 0.0), AffinePiece.along(fade, asked / y - 1.0, 0.0)
     regions = regions_of(parent, layout)
@@ -489,9 +512,6 @@ def transom_half_breadth_field(parent: Parent, asked: float, layout: Layout) -> 
 
 _INNER = 0.95
 """A corner fades out within this part of the half-breadth, so that the centre plane stays."""
-
-_ALIKE = 1e-6
-"""m: tangents that differ by less are those of a circle."""
 
 
 def _range(parent: Parent, layout: Layout, name: str) -> BlendChain:

@@ -32,6 +32,7 @@ from assoc_hull.variation.parameters.parameter_measures import measure_all
 
 __all__ = [
     "Parent",
+    "cannot_vary",
     "parent_of",
 ]
 
@@ -42,6 +43,11 @@ _MEASURED_AS = {
     "boss": "shaft_height", "boss top": "bossing_radius", "transom": "transom_height",
 }  # fmt: skip
 """The parameter whose measure gives a place; where the place is missing, its reason says why."""
+
+
+def cannot_vary(name: str, why: str, remedy: str = "leave it out") -> BadInputError:
+    """Give the error of a parameter that has no field on this parent, with the reason."""
+    return BadInputError(f"cannot vary '{name}': {why}", "in vary", remedy)
 
 
 def _no_frames() -> SectionFrames:
@@ -100,10 +106,8 @@ class Parent:
         found = self.places.get(place)
         if found is None or parameter in self.absent:
             measured = self.absent.get(_MEASURED_AS.get(place, ""), f"the parent has no {place}")
-            raise BadInputError(
-                f"cannot vary '{parameter}': {self.absent.get(parameter, measured)}", "in vary",
-                "leave it out, or give the parent one",
-            )  # fmt: skip
+            why = self.absent.get(parameter, measured)
+            raise cannot_vary(parameter, why, "leave it out, or give the parent one")
         return found
 
     def has(self, place: str) -> bool:

@@ -13,7 +13,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.bounded_functions import BlendChain
 from assoc_hull.variation.fields.field import AffinePiece, StackedField, Tube, level_boundaries
 from assoc_hull.variation.parameters.field_layout import Layout, Share
-from assoc_hull.variation.parameters.parent import Parent
+from assoc_hull.variation.parameters.parent import Parent, cannot_vary
 
 __all__ = ["entrance_field", "run_field", "waterline_fullness_field"]
 
@@ -22,6 +22,10 @@ _LOW, _TOP = 0.1, 1.5
 
 _TUBE = 2.0
 """Half-breadths are changed in full up to this part of that of the ship, and less beyond."""
+
+_WEAK = 0.01
+"""A field of strength 1 that turns a chord by less than this part of its half-breadth turns
+nothing: it would have to fold the ship before it is seen."""
 
 _FADE = 0.25
 """Part of Lpp over which entrance and run fade out toward midship."""
@@ -59,7 +63,14 @@ def _angle(
     change -= float(place[1] - end[1])
     unit = _about(parent, name, course, layout)
     grip = unit.displacement(np.array(chord))
-    strength = change / float(grip[0] - grip[1])
+    apart = float(grip[0] - grip[1])
+    if not abs(apart) > _WEAK * float(place[1]):
+        raise cannot_vary(
+            name, f"the design waterline is {place[1]:.4g} m out at x = {place[0]:.6g} m and "
+            f"{end[1]:.4g} m at its end, x = {end[0]:.6g} m: that is as broad as the ship, and "
+            "where the side is that far out nothing moves",
+        )  # fmt: skip
+    strength = change / apart
     return Share(
         name, "y", change, np.array(chord), np.array([1.0, -1.0]), (unit.scaled(strength),)
     )
@@ -80,12 +91,24 @@ def waterline_fullness_field(parent: Parent, asked: float, layout: Layout) -> Sh
         nodes.append(end)
         values.append(0.0)
     nodes += [_FORE * parent.length, float(line[-1, 0])]
+    if (np.diff(nodes) <= 0.0).any():
+        raise cannot_vary(
+            name, f"the design waterline, x = {nodes[0]:.6g} to {nodes[-1]:.6g} m, is changed most "
+            f"at x = {nodes[1]:.6g} and {nodes[-2]:.6g} m and nowhere in between from x = "
+            f"{start:.6g} to {end:.6g} m, where the ship is fullest: on this ship the one leaves "
+            "no room for the other",
+        )  # fmt: skip
     unit = _about(
         parent, name, BlendChain.through(nodes, [*values, 1.0, 0.0], layout.curve, name), layout
     )
     moved = unit.displacement(line)
     half = 0.5 * parent.breadth * parent.length
     now, more = (float(np.trapezoid(each, line[:, 0])) / half for each in (line[:, 1], moved))
+    if not more > _WEAK * now:
+        raise cannot_vary(
+            name, "the design waterline is as broad as the ship all along, and where the side is "
+            "that far out nothing moves",
+        )  # fmt: skip
     strength = (asked - now) / more
     most = int(moved.argmax())
     return Share.at(name, "y", strength * float(moved[most]), line[most], unit.scaled(strength))

@@ -7,10 +7,12 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.cli import main
+from assoc_hull.edit.recording import ANY_FUNCTION, Script, VariedValues
 from tests.unit.cli.conftest import Json
 
 Edits = Callable[[object], Path]
 POINT = "WL 2.5 x ST 7"
+MOVE = [{"op": "move", "point": POINT, "y": 3.2}]
 
 
 @pytest.fixture
@@ -152,6 +154,51 @@ def test_edits_are_made_again_on_a_sister(twice: Path, tmp_path: Path, facts: Js
     assert POINT in found["edits"][0]["why"]
     found = facts("replay", twice, other, "--skip", "-o", tmp_path / "third.hull", code=1)
     assert len(found["edits"]) == 2
+
+
+def test_variations_are_made_again_on_a_sister(
+    file: Path, tmp_path: Path, facts: Json, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By the values asked for, set or reached; from the file, in another process."""
+    sister = tmp_path / "sister.hull"
+    ah.examples.wigley(length=110.0).save(sister)
+    facts("vary", file, "breadth=11")
+    facts("vary", file, "--reach", "volume=2900", "--free", "draught")
+    facts("shift", file, "--by", "cb=0.005")
+    found = facts("replay", file, sister)
+    assert [(edit["made"], edit["why"]) for edit in found["edits"]] == [(True, "")] * 3
+    made = ah.open(sister)
+    assert made.particulars.breadth == pytest.approx(11.0)
+    made.undo()
+    assert made.hydrostatics().volume == pytest.approx(2900.0, rel=1e-8)
+
+
+def test_nothing_is_said_to_be_written_where_no_edit_was_made(
+    twice: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Nor is it: not for an edit that cannot be made, and not for a hull without edits."""
+    bare, out = tmp_path / "bare.hull", tmp_path / "out.hull"
+    ah.examples.wigley(stations=5, waterlines=4).save(bare)
+    for source, onto, code in ((twice, bare, 1), (bare, twice, 0)):
+        assert main(["replay", str(source), str(onto), "-o", str(out)]) == code
+        assert "written:" not in capsys.readouterr().out
+        assert not out.exists()
+
+
+def test_a_step_that_cannot_be_repeated_gives_its_own_reason() -> None:
+    """A function, a variation of which an older file kept the values, and what is neither."""
+    steps = (
+        (Script(edits=({"op": "transform", "function": ANY_FUNCTION},)), "given a function"),
+        (Script(varied=VariedValues(set={"breadth": 11.0})), "vary this hull again, by breadth=11"),
+        (Script(), "made of no modifications"),
+    )
+    one, hull = ah.examples.wigley(), ah.examples.wigley()
+    one.apply("moved", MOVE)
+    for script, why in steps:
+        one.document.history[0].script = script
+        found = hull.replay(one)
+        assert found[0].report is None
+        assert why in found[0].why
 
 
 def test_one_step_is_told_in_full(

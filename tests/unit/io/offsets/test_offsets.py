@@ -406,7 +406,7 @@ def change(line: int, column: int, cell: str) -> str:
         ("station,wl_0,wl_1\n0,0,0\n10,0,0\n", "no half-breadth is above 0"),
         ("station,wl_0,wl_1\n0,0,1\n7,0,16\n", "whether station 0 is at the aft"),
         ("# 0 = AP\nstation,wl_0,wl_1\n0,0,1\n7,0,16\n", "run from 0 to 7"),
-        ("station,bt_1\n0,1\n7,2\n", r"0 block\(s\) hold waterlines"),
+        ("station,bt_1\n0,1\n7,2\n", "no column is named as a waterline"),
         ("\x00\x01\n", "the content is binary"),
     ],
 )

@@ -246,3 +246,20 @@ def test_a_workbook_with_a_title_and_a_blank_corner(tmp_path: Path) -> None:
     book.save(path)
     table, _ = read_offsets(path)
     np.testing.assert_allclose(table.half_breadth, [row[1:] for row in HALF])
+
+
+@pytest.mark.parametrize("word", ["draft", "Draught", "Wasserlinie", "WL", "Waterline"])
+def test_waterlines_are_known_by_the_words_that_yards_use(word: str) -> None:
+    """With the unit or without, in the head of each column."""
+    heads = [column_name(f"{word} {each}") for each in ("0", "0.5 m", "1,5")]
+    assert [each and (each.kind, each.value) for each in heads] == [
+        ("waterline", 0.0), ("waterline", 0.5), ("waterline", 1.5),
+    ]  # fmt: skip
+
+
+def test_a_table_whose_heads_are_not_understood_quotes_them() -> None:
+    """And says how to call a waterline; called so, the table is read."""
+    table = "x_m,Ebene 0,Ebene 1,Ebene 2\n0,0,0,0\n50,0,2,3\n100,0,0,0\n"
+    with pytest.raises(BadInputError, match="not understood: 'Ebene 0', 'Ebene 1', 'Ebene 2'"):
+        read_offsets(table, length=100.0, draught=2.0)
+    read_offsets(table.replace("Ebene ", "wl_"), length=100.0, draught=2.0)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+import attrs
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -16,7 +17,12 @@ from assoc_hull.geometry.fairness.combs import (
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import examples
-from assoc_hull.variation.comparing.line_fairness import compare_fairness, measure_fairness
+from assoc_hull.variation.comparing.line_fairness import (
+    FairnessChange,
+    LineFairness,
+    compare_fairness,
+    measure_fairness,
+)
 from tests.taken_back import taken_back
 
 UP = [0.0, 0.0, 1.0]
@@ -131,3 +137,19 @@ def test_an_unknown_line_is_refused(wigley: Hull, line: int) -> None:
     """A number that no line has is an error of the family."""
     with pytest.raises(BadInputError, match="there is no line"):
         measure_fairness(wigley.document.state, [line])
+
+
+@pytest.mark.parametrize("noise", [0.0, 1e-12, 1e-6])
+def test_rounding_along_a_straight_line_is_no_comb(noise: float) -> None:
+    """Bent by less than the tolerance, a straight line has become as sharp as it was."""
+    before = LineFairness("a", "a", np.zeros((1, 3)), 0, noise * 1e-20, 0.0, 3.0)
+    bent = attrs.evolve(before, comb=9e-5, greatest=4e-3)
+    assert FairnessChange(before, bent).comb_ratio == 1.0
+    knuckled = attrs.evolve(before, comb=1.0, greatest=0.5)
+    assert 100.0 < FairnessChange(before, knuckled).comb_ratio < 1e5
+
+
+def test_the_comb_of_a_line_that_shows_it_is_told_as_it_is() -> None:
+    """No floor comes between two lines that have curvature to be seen."""
+    before = LineFairness("a", "a", np.zeros((1, 3)), 0, 0.5, 0.2, 3.0)
+    assert FairnessChange(before, attrs.evolve(before, comb=1.5)).comb_ratio == 3.0
