@@ -141,6 +141,11 @@ def test_a_wavy_line_is_listed_with_what_its_batten_does_where_it_leads(
     assert row.inner_text().split("\t")[:2] == [place.line, springs]
     away = place.residual - place.expected
     words = f"a {'hollow' if away > 0.0 else 'hump'} of {1e3 * abs(away):.1f} mm"
+    heads = hand.page.evaluate(
+        "() => [...document.querySelectorAll('aside th')].slice(1)"
+        ".map(each => parseFloat(getComputedStyle(each).paddingLeft))"
+    )
+    assert min(heads) >= 4.0, "heads of narrow columns do not run together"
     assert words in box.get_by_text(f"{place.point} on {place.line}").first.inner_text()
     row.get_by_role("button").click()
     assert hand.ask("p => p.store.net.points.get(p.store.selection.row).name") == place.point
