@@ -191,9 +191,10 @@ def outcome(hull: ah.Hull, values: Mapping[str, float], **more: object) -> Outco
     ) if any(not name.endswith("_shift") for name in values) else 0.0  # fmt: skip
     # Lines of a hull that a definition made are its own from the first edit on.
     sound = all("detached" in str(each) for each in varied.hull.check())
-    targets = more.get("reach")
+    targets, doubts = more.get("reach"), tuple[str, ...]()
     if isinstance(targets, Mapping):
-        there = varied.hull.hydrostatics()
+        there = varied.hull.hydrostatics(on_error="report")
+        doubts = there.notes  # that the lines are too few to tell a volume is no fault of a target
         sound &= all(
             abs(getattr(there, key) - value) <= _REACHED * abs(value)
             for key, value in targets.items()
@@ -202,7 +203,7 @@ def outcome(hull: ah.Hull, values: Mapping[str, float], **more: object) -> Outco
     sound &= varied.hull.fingerprint == hull.fingerprint
     return Outcome(
         True, worst, sound, report.worst_comb, report.added_sign_changes, report.rounds, spent,
-        "; ".join(report.stages),
+        "; ".join((*report.stages, *doubts)),
     )  # fmt: skip
 
 
