@@ -8,6 +8,8 @@ from __future__ import annotations
 import os
 from collections.abc import Collection
 
+import numpy as np
+
 from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.arguments import all_of, flag
 from assoc_hull.errors import BadInputError
@@ -24,7 +26,11 @@ from assoc_hull.surface.volume_check import displaced_of
 
 __all__ = ["export_file"]
 
-_POINTS = 4
+_POINTS = (4, 8, 16, 32)
+"""Parts of each piece of a line between crossings: the first with which chords are short enough."""
+
+_CHORD = 3e-4
+"""Chords of which one in twenty leaves its line by no more than this part of the length are."""
 
 
 def export_file(
@@ -54,8 +60,10 @@ def export_file(
     _refuse("scale", "a lines plan", given=scale is not None)
     if chosen in MESH_FORMS:
         # The mesh comes from the lines: it needs no surface, which takes longer.
-        parts = _POINTS if points is None else points
-        mesh = closed_mesh(hull, half=alone, points=parts, leave_out=names)
+        for parts in _POINTS if points is None else (points,):
+            mesh = closed_mesh(hull, half=alone, points=parts, leave_out=names)
+            if mesh.sagitta[1] <= _CHORD * float(np.ptp(mesh.xyz[:, 0])):
+                break
         return write_mesh(
             mesh, path, chosen, unit=unit, name=state.particulars.name or "hull",
             by_lines=displaced_of(state, tunnels=not {each.name for each in state.tunnels} & names),
