@@ -301,7 +301,7 @@ def add_export(commands: Commands) -> None:
     )
     parser.add_argument(
         "--points", type=int, metavar="N",
-        help="of a mesh: parts of each line between two crossings, even (default: 4; round lines: more)",
+        help="of a mesh: parts of each line between two crossings, even (4, or more of round ones)",
     )  # fmt: skip
     parser.add_argument(
         "--leave-out", nargs="+", default=[], metavar="NAME",
