@@ -40,7 +40,6 @@ __all__ = [
 # Options of `export` that do not go together, refused before anything is computed.
 
 _MESHES = ("stl", "stl-text", "obj", "ply", "glb")
-_PATCHES = ("step", "iges", "iges-brep", "iges-surfaces")
 
 
 def check_arcs(arguments: argparse.Namespace) -> None:
@@ -95,8 +94,8 @@ def check_form(arguments: argparse.Namespace, form: str, *, mesh_or_surface: boo
         "--views chooses the views of a drawing": arguments.views is not None and form != "dxf",
         "--half is for surfaces and meshes": arguments.half and not mesh_or_surface,
         "--points is for meshes": arguments.points is not None and form not in _MESHES,
-        "--accept is for surfaces": arguments.accept
-        and form not in (*_PATCHES, "3dm"),
+        "--accept is for surfaces and meshes": arguments.accept
+        and not mesh_or_surface and form != "3dm",
         "--unit is for drawings, surfaces and meshes": arguments.unit is not None
         and not (drawn or mesh_or_surface or form in ("iges-lines", "3dm")),
     }  # fmt: skip
@@ -208,6 +207,13 @@ def mesh_words(report: MeshFile) -> str:
         rows.append(f"beside the hull, closed surfaces of their own: {', '.join(report.bodies)}")
     if report.chord is not None:
         rows.append(f"lines leave the edges of triangles by up to {1e3 * report.chord:.1f} mm")
+    if report.displaced is not None:
+        level, mine, theirs = report.displaced
+        rows.append(
+            f"below {level:.2f} m {mine:.3f} m3, by hydrostatics {theirs:.3f} m3 "
+            f"({100.0 * (mine / theirs - 1.0):+.2f} %)"
+        )
+    rows += [f"accepted: {each}" for each in report.faults]
     if report.left_out:
         rows.append(f"{report.left_out} triangles have no area in the numbers of the file")
     return "\n".join([*rows, f"written: {report.path} ({report.form}, {report.unit})"])
@@ -225,6 +231,7 @@ def cad_words(report: CadReport) -> str:
     if report.residual is not None:
         at = f", {report.residual_place}" if report.residual_place else ""
         rows.append(f"lines lie up to {1e3 * report.residual:.1f} mm off it{at}")
+    rows += [f"accepted: {each}" for each in report.faults]
     rows += report.left_out
     rows.append(f"read back: control points within {1e3 * report.control_point_error:.1e} mm")
     return "\n".join([*rows, f"written: {report.path} ({report.form}, {report.unit})"])
@@ -294,7 +301,7 @@ def add_export(commands: Commands) -> None:
     )
     parser.add_argument(
         "--points", type=int, metavar="N",
-        help="of a mesh: parts of each line between two crossings, even (default: 4)",
+        help="of a mesh: parts of each line between two crossings, even (4, or more of round ones)",
     )  # fmt: skip
     parser.add_argument(
         "--leave-out", nargs="+", default=[], metavar="NAME",
@@ -302,7 +309,7 @@ def add_export(commands: Commands) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--accept", action="store_true",
-        help="write a surface too whose halves cross or that leaves its residual limits",
+        help="write a surface or mesh too that is not sound, as one of another volume",
     )  # fmt: skip
     _add_drawing(parser)
     _add_arcs(parser)

@@ -8,10 +8,13 @@ from __future__ import annotations
 import os
 from collections.abc import Collection
 
+import numpy as np
+
+from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.arguments import all_of, flag
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull.results import surface_of_hull
-from assoc_hull.io.cad.write import CAD_FORMS, CadReport
+from assoc_hull.io.cad.write import CadReport
 from assoc_hull.io.export.write import ENDINGS, FORMS, export_hull
 from assoc_hull.io.mesh.closed_mesh import MESH_FORMS, MeshFile, write_mesh
 from assoc_hull.io.reports import ExportReport
@@ -19,10 +22,15 @@ from assoc_hull.io.surfaces.hull_surface import SURFACE_ENDINGS, SURFACE_FORMS
 from assoc_hull.io.write_file import form_by_ending
 from assoc_hull.model.tables import HasState, state_of
 from assoc_hull.surface.cells.closed_mesh import closed_mesh
+from assoc_hull.surface.volume_check import displaced_of
 
 __all__ = ["export_file"]
 
-_POINTS = 4
+_POINTS = (4, 8, 16, 32)
+"""Parts of each piece of a line between crossings: the first with which chords are short enough."""
+
+_CHORD = 3e-4
+"""Chords of which one in twenty leaves its line by no more than this part of the length are."""
 
 
 def export_file(
@@ -42,19 +50,25 @@ def export_file(
     chosen = form_by_ending(path, form, forms, endings, "in export")
     alone, state = flag(half, "half", "in export"), state_of(hull, "in export")
     _refuse("points", "meshes", given=points is not None and chosen not in MESH_FORMS)
-    names = all_of(leave_out, str, "leave_out", "in export")
+    names = set(all_of(leave_out, str, "leave_out", "in export"))
     _refuse("leave_out", "meshes", given=bool(names) and chosen not in MESH_FORMS)
     taken = flag(accept, "accept", "in export")
-    _refuse("accept", "surfaces", given=taken and chosen not in (*CAD_FORMS, "3dm"))
+    _refuse("accept", "surfaces and meshes", given=taken and chosen not in (*SURFACE_FORMS, "3dm"))
     if chosen in FORMS:
         _refuse("half", "surfaces and meshes", given=alone)
         return export_hull(state, path, chosen, unit, scale=scale, accept=taken)
     _refuse("scale", "a lines plan", given=scale is not None)
     if chosen in MESH_FORMS:
         # The mesh comes from the lines: it needs no surface, which takes longer.
-        parts = _POINTS if points is None else points
-        mesh = closed_mesh(hull, half=alone, points=parts, leave_out=names)
-        return write_mesh(mesh, path, chosen, unit=unit, name=state.particulars.name or "hull")
+        for parts in _POINTS if points is None else (points,):
+            mesh = closed_mesh(hull, half=alone, points=parts, leave_out=names)
+            if mesh.sagitta[1] <= _CHORD * float(np.ptp(mesh.xyz[:, 0])):
+                break
+        return write_mesh(
+            mesh, path, chosen, unit=unit, name=state.particulars.name or "hull",
+            by_lines=displaced_of(state, tunnels=not {each.name for each in state.tunnels} & names),
+            net=gather_net(state), accept=taken,
+        )  # fmt: skip
     return surface_of_hull(hull).write(path, chosen, unit=unit, half=alone, accept=taken)
 
 

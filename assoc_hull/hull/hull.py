@@ -2984,9 +2984,11 @@ features
         half : bool
             Of surfaces and meshes: the port half only.
         points : int or None
-            Of a mesh: into how many parts each piece of a line between two crossings is cut.
+            Of a mesh: into how many parts each piece of a line between two crossings is cut; None:
+            4, or as many more as round lines with few crossings take.
         accept : bool
-            Of surfaces: also one that crosses the centre plane or leaves its residual limits.
+            Of surfaces and meshes: also one of another volume than hydrostatics find, or a surface
+            that crosses the centre plane or leaves its residual limits.
         leave_out : collection of str
             Of a mesh: names of lines, tunnels and bodies to do without.
 
@@ -3001,7 +3003,8 @@ features
             A form, unit or option that is not known or does not go with it, a file that cannot be
             written, an extra that is not installed, a mesh that does not close.
         NotSoundError
-            A surface whose halves cross or that leaves a limit, which was not accepted.
+            A surface or mesh of another volume than hydrostatics find, or a surface whose halves
+            cross or that leaves a limit, which was not accepted.
         """
         from assoc_hull.hull.exports import export_file
 

@@ -89,6 +89,7 @@ __all__ = [
     "EvenKeelDisplacement",
     "Flotation",
     "body_of",
+    "body_of_state",
     "data_of_lines",
     "even_keel_displacement",
     "flotation",
@@ -490,10 +491,11 @@ def _depends_on(state: HullState) -> tuple[object, ...]:
 def body_of(hull: HasState) -> FloatingBody:
     """Make what can be measured of a hull, less the tunnels that it holds."""
     # The one place where hydrostatics takes the integrals of a net.
-    return _less_tunnels(state_of(hull))
+    return body_of_state(state_of(hull))
 
 
-def _less_tunnels(state: HullState) -> FloatingBody:
+def body_of_state(state: HullState) -> FloatingBody:
+    """Make what can be measured of the tables of a hull, as `body_of` does."""
     body: FloatingBody = flotation(state)
     if not state.tunnels:
         return body
@@ -565,6 +567,6 @@ def even_keel_displacement(
     """
     level = state.particulars.draught if draught is None else draught
     planes = FloatingPlanes(np.array([level], np.float64), np.zeros(1), np.zeros(1))
-    below = (_less_tunnels(state) if tunnels else flotation(state)).measure(planes)
+    below = (body_of_state(state) if tunnels else flotation(state)).measure(planes)
     volume, moment = float(below.volume[0]), float(below.moment_x[0])
     return EvenKeelDisplacement(volume, moment / volume if volume else float("nan"))

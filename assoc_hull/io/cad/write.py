@@ -421,6 +421,8 @@ class CadReport:
         On which line that is, and near which crossing; empty of surfaces alone.
     left_out : tuple of str
         What the hull has and the file has not, such as bodies beside the net.
+    faults : tuple of str
+        What was accepted of the surface.
     """
 
     path: str
@@ -438,6 +440,7 @@ class CadReport:
     residual: float | None = None
     residual_place: str = ""
     left_out: tuple[str, ...] = ()
+    faults: tuple[str, ...] = ()
 
 
 def write_cad(

@@ -9,20 +9,22 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.net.curve_net import CurveNet
 from assoc_hull.arguments import choice, instance, text
-from assoc_hull.errors import MissingExtraError
+from assoc_hull.errors import MissingExtraError, NotSoundError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.io.write_file import form_by_ending, write_whole
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh, examine_mesh, require_closed
 from assoc_hull.surface.cells.meshed_bodies import welded
+from assoc_hull.surface.volume_check import Displaced, mesh_faults
 
 __all__ = [
     "MESH_ENDINGS",
@@ -284,6 +286,10 @@ class MeshFile:
         How far the lines leave the edges of triangles between points at most.
     bodies : tuple of str
         Those of the groups that are bodies beside the hull, each closed by itself.
+    displaced : (float, float, float) or None, m and m3
+        A level, the volume of the mesh below it, and that of hydrostatics; None: not compared.
+    faults : tuple of str
+        What was accepted.
     """
 
     path: str
@@ -298,6 +304,8 @@ class MeshFile:
     size: int
     chord: float | None = None
     bodies: tuple[str, ...] = ()
+    displaced: tuple[float, float, float] | None = None
+    faults: tuple[str, ...] = ()
 
 
 def mesh_form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
@@ -324,6 +332,9 @@ def write_mesh(
     *,
     unit: str | None = None,
     name: str = "hull",
+    by_lines: Sequence[Displaced] = (),
+    net: CurveNet | None = None,
+    accept: bool = False,
 ) -> MeshFile:
     """Write a mesh.
 
@@ -339,6 +350,12 @@ def write_mesh(
         Of the file, m if None. No form but glTF, which is in m, says which.
     name : str
         What the mesh is, for forms that can say so.
+    by_lines : sequence of Displaced
+        What hydrostatics find of the lines of the hull, to be compared with both sides.
+    net : CurveNet or None
+        These lines, beyond which no mesh reaches.
+    accept : bool
+        Write a mesh too that holds another volume, or reaches beyond.
 
     Returns
     -------
@@ -349,6 +366,8 @@ def write_mesh(
     ------
     OpenMeshError
         The mesh does not close, as it is or in the numbers of the file.
+    NotSoundError
+        It is another body than hydrostatics measure, and that was not accepted.
     BadInputError, MissingExtraError
         A form or unit that is not known, a file that cannot be written; glTF without trimesh.
     """
@@ -359,11 +378,22 @@ def write_mesh(
     side = "port half, open in the centre plane; " if mesh.half else ""
     title = f"{' '.join(text(name, 'the name', _WHERE).split())}: {side}unit {used}"
     filed = FiledMesh.of(mesh, _SCALES[used], known.rounded, title)
+    faults = () if mesh.half or net is None else mesh_faults(mesh, by_lines, net)
+    if faults and not accept:
+        raise NotSoundError(f"the closed mesh of {name}", faults)
     data = known.dumps(filed)
     write_whole(path, data)
     return MeshFile(
         os.fspath(path), chosen, used, mesh.half, len(filed.xyz), len(filed.triangle),
         len(mesh.triangle) - len(filed.triangle), mesh.names,
         None if mesh.half else mesh.volume, len(data), float(mesh.sagitta[2]),
-        tuple(dict.fromkeys(each.name for each in mesh.bodies)),
+        tuple(dict.fromkeys(each.name for each in mesh.bodies)), _compared(mesh, by_lines), faults,
     )  # fmt: skip
+
+
+def _compared(mesh: ClosedMesh, by_lines: Sequence[Displaced]) -> tuple[float, float, float] | None:
+    """Give the level at which volumes differ most, with that of the mesh and of hydrostatics."""
+    if mesh.half or not by_lines:
+        return None
+    found = [(each.level, mesh.below(each.level).volume, each.volume) for each in by_lines]
+    return max(found, key=lambda each: abs(each[1] / each[2] - 1.0))

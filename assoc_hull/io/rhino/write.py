@@ -16,6 +16,7 @@ from typing import Any
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.errors import AssocHullError, BadInputError, MissingExtraError, NotSoundError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
@@ -29,6 +30,7 @@ from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import fit_options, length_of
 from assoc_hull.surface.blocks.fitted_surface import require_sound_surface
 from assoc_hull.surface.cells.closed_mesh import mesh_of_state
+from assoc_hull.surface.volume_check import displaced_of, mesh_faults
 
 __all__ = ["rhino_file", "rhino_module"]
 
@@ -86,9 +88,14 @@ def rhino_file(state: HullState, book: ExportBook) -> bytes:
         book.leave_out("surface", "the hull", f"none can be fitted: {error}")
     try:
         mesh = mesh_of_state(state)
+        faults = mesh_faults(mesh, displaced_of(state), gather_net(state))
+        if faults and not book.accept:
+            raise NotSoundError("the closed mesh", faults)
         file.add_mesh("closed mesh", mesh.xyz, mesh.triangle[: mesh.report.triangles])
         for each in mesh.bodies:
             file.add_mesh(each.name, mesh.xyz, mesh.triangle[each.first : each.last])
+    except NotSoundError as error:
+        book.leave_out("mesh", "the hull", str(error))
     except AssocHullError as error:
         book.leave_out("mesh", "the hull", f"none closes: {error}")
     file.model.Strings[MARK] = hull_text(state)

@@ -31,6 +31,7 @@ from assoc_hull.surface.blocks.fitted_surface import (
     SCHEMA,
     FittedSurface,
     require_sound_surface,
+    surface_faults,
 )
 from assoc_hull.surface.cells.closed_mesh import mesh_of_net
 
@@ -90,7 +91,8 @@ def write_surface(
     half : bool
         The half y >= 0 only; both sides are joined on the centre plane otherwise.
     accept : bool
-        Write patches too that cross the centre plane or leave their residual limits.
+        Write patches too that cross the centre plane or leave their limits, and a mesh that
+        holds another volume than hydrostatics find.
 
     Returns
     -------
@@ -119,9 +121,12 @@ def write_surface(
         missing = tuple(each for each in found.notes if each.startswith(LEFT_OUT))
         return attrs.evolve(
             report, residual=worst.largest, residual_place=residual_place(found.net, worst),
-            left_out=missing,
+            left_out=missing, faults=surface_faults(found) if taken else (),
         )  # fmt: skip
-    return write_mesh(mesh_of_net(found.net, half=alone), path, chosen, unit=unit, name=name)
+    return write_mesh(
+        mesh_of_net(found.net, half=alone), path, chosen, unit=unit, name=name,
+        by_lines=found.displaced, net=found.net, accept=taken,
+    )  # fmt: skip
 
 
 # --------------------------------------------------------------------------------------

@@ -126,9 +126,6 @@ _TANGENT = Pen(0.2, "#7a3b9a", (1.5, 0.8), 2.6)
 _MARK = Pen(0.18, TINT, (2.0, 0.8), 2.4)
 _AREAS = ("#cfe0f2", "#9dbfe2")
 _COUNT = 400
-_BELOW = 0.5
-"""Of the largest lever: so far below nought the field goes at most behind it."""
-
 _RADIAN = float(np.degrees(1.0))
 
 
@@ -169,9 +166,8 @@ def lever_picture(
     gz = side * found.curve.gz(side * heel)
     along = scale_to(float(heel[0]), float(heel[-1]), chart.left, chart.wide, 18, whole=False)
     high = max(1.05 * float(gz.max()), 0.05)
-    low = max(float(gz.min()), -_BELOW * high) if gz.max() > 0.0 else float(gz.min())
-    low = min(low, float(gz[: gz.argmax() + 1].min()))  # of a ship with a list all of it
-    up = scale_to(min(low, 0.0), high, chart.low, chart.tall, 16)
+    # All that the table has: levers below nought tell how she goes over.
+    up = scale_to(min(float(gz.min()), 0.0), high, chart.low, chart.tall, 16)
     level_grid(chart, up, "GZ, m")
     upright_grid(chart, along, f"heel to {found.side}, degrees")
     _areas(chart, found, along, up)

@@ -42,6 +42,7 @@ from assoc_hull.surface.blocks.fit_quality import (
     sum_residuals,
 )
 from assoc_hull.surface.blocks.fitted_surface import FittedBlock, FittedSurface
+from assoc_hull.surface.volume_check import displaced_of
 
 __all__ = [
     "EarlierBlocks",
@@ -322,7 +323,7 @@ def surface_of_net(
     refitted = tuple(block.name for block in found if block.name in followed.refitted)
     return FittedSurface(
         state.particulars, options, net, found, borders, tuple(leave_out), refitted, notes,
-        _of_all(made, misses, net),
+        _of_all(made, misses, net), displaced_of(state, tunnels=False),
     )  # fmt: skip
 
 

@@ -27,6 +27,11 @@ from assoc_hull.surface.blocks.fit_quality import (
     doubts_of_half,
     doubts_of_limits,
 )
+from assoc_hull.surface.volume_check import (
+    Displaced,
+    surface_volume,
+    surface_volume_faults,
+)
 
 __all__ = [
     "FORMAT",
@@ -138,6 +143,8 @@ class FittedSurface:
         Warnings and what is to be known of the whole.
     whole : tuple of Residuals
         Of all blocks together, on the lines fitted to and on those left out.
+    displaced : tuple of Displaced
+        What hydrostatics find of the lines, less nothing for tunnels; none if they find nothing.
     """
 
     particulars: Particulars
@@ -149,11 +156,17 @@ class FittedSurface:
     refitted: tuple[str, ...]
     notes: tuple[str, ...]
     whole: tuple[Residuals, ...]
+    displaced: tuple[Displaced, ...] = ()
 
     @cached_property
     def patches(self) -> tuple[SplineSurface, ...]:
         """The surfaces of the blocks, with normals out of the hull."""
         return tuple(block.surface for block in self.blocks)
+
+    @cached_property
+    def volumes(self) -> tuple[float, ...]:
+        """What it encloses below the levels of `displaced`, both sides, m3."""
+        return tuple(surface_volume(self.patches, each.level) for each in self.displaced)
 
 
 # --------------------------------------------------------------------------------------
@@ -161,7 +174,9 @@ class FittedSurface:
 
 
 def surface_faults(surface: FittedSurface) -> tuple[str, ...]:
-    """List where a surface crosses the centre plane or leaves its residual limits, and how far.
+    """List where a surface crosses the centre plane or leaves its limits, and how far.
+
+    Limits are those of residuals, and of the volume: it should be that of hydrostatics.
 
     Examples
     --------
@@ -171,7 +186,7 @@ def surface_faults(surface: FittedSurface) -> tuple[str, ...]:
     ()
     """
     options = surface.options
-    return tuple(
+    found = tuple(
         f"{block.name}: {doubt}"
         for block in surface.blocks
         for doubt in (
@@ -182,6 +197,7 @@ def surface_faults(surface: FittedSurface) -> tuple[str, ...]:
             ),
         )
     )
+    return (*found, *surface_volume_faults(surface.patches, surface.volumes, surface.displaced))
 
 
 def require_sound_surface(surface: FittedSurface, *, accept: bool) -> None:
@@ -261,6 +277,8 @@ def text_of(surface: FittedSurface) -> str:
     head += f"block(s), {count} Bezier patches"
     table = ResidualTable(surface.blocks, surface.whole)
     parts = [head, "", str(table), "", *map(_fit, surface.blocks)]
+    if surface.displaced:
+        parts += ["", *map(_volume, surface.volumes, surface.displaced)]
     if surface.borders:
         parts += ["", *map(_border, surface.borders)]
     if surface.left_out:
@@ -276,6 +294,13 @@ def _fit(block: FittedBlock) -> str:
         f"{block.name}: {u} x {v} spans, lam {block.smoothing:.3g} m3, "
         f"least |S| {block.least_element:.3f} of the median, "
         f"error between the lines about {1.5 * _MM * block.fitted.p95:.1f} mm (1.5 p95)"
+    )
+
+
+def _volume(found: float, by_lines: Displaced) -> str:
+    return (
+        f"below {by_lines.level:.2f} m: {found:.2f} m3, by hydrostatics of the lines "
+        f"{by_lines.volume:.2f} m3 ({100.0 * (found / by_lines.volume - 1.0):+.2f} %)"
     )
 
 

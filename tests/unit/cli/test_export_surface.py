@@ -176,7 +176,7 @@ def test_every_fourth_line_is_left_out(
         (["export", "-o", "a.csv", "--unit", "mm"], "--unit is for drawings"),
         (["export", "-o", "a.step", "--points", "2"], "--points is for meshes"),
         (["export", "-o", "a.step", "--views", "2d"], "--views chooses the views of a drawing"),
-        (["export", "-o", "a.stl", "--accept"], "--accept is for surfaces"),
+        (["export", "-o", "a.csv", "--accept"], "--accept is for surfaces and meshes"),
         (["surface", "--accept"], "--accept is for a file"),
         (["export", "-o", "a.dxf", "--scale", "100"], "add --views 2d"),
         (["export", "-o", "a.dxf", "--views", "2d", "--scale", "0"], "scale is 0"),

@@ -165,3 +165,12 @@ def test_the_levers_of_a_ship_with_a_list_are_drawn_from_upright(lines_of: Lines
     listing = box(4.5, tcg=2.0)
     (levers,) = lines_of(lever_picture(listing), "curve/gz$")
     assert np.isfinite(levers).all()
+
+
+def test_levers_are_drawn_as_far_as_the_table_goes(
+    ships: dict[str, Stability], lines_of: Lines
+) -> None:
+    """Of a ship that capsizes too: the curve is not cut where it falls far below nought."""
+    for found in ships.values():
+        (levers,) = lines_of(lever_picture(found), "curve/gz$")
+        assert np.isfinite(levers).all()

@@ -1,0 +1,83 @@
+"""A mesh or surface of another volume than hydrostatics find is not written without a word."""
+
+from pathlib import Path
+
+import attrs
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.analysis.net.curve_net import gather_net
+from assoc_hull.errors import NotSoundError
+from assoc_hull.io.mesh.closed_mesh import write_mesh
+from assoc_hull.surface.cells.closed_mesh import ClosedMesh, examine_mesh
+from assoc_hull.surface.volume_check import displaced_of, extent_faults, mesh_faults
+from tests.cases.test_box_with_bilges import round_box
+
+
+@pytest.fixture(scope="module")
+def hull() -> ah.Hull:
+    """A Wigley hull of few lines."""
+    return ah.examples.wigley(stations=9, waterlines=6)
+
+
+def pressed(mesh: ClosedMesh, part: float) -> ClosedMesh:
+    """Make a mesh narrower by a part between x = 20 and 40 m: closed all the same."""
+    xyz = mesh.xyz.copy()
+    xyz[(xyz[:, 0] > 20.0) & (xyz[:, 0] < 40.0), 1] *= 1.0 - part
+    return attrs.evolve(mesh, xyz=xyz, report=examine_mesh(xyz, mesh.triangle))
+
+
+def test_a_mesh_of_the_right_volume_is_written_with_both(hull: ah.Hull, tmp_path: Path) -> None:
+    """The report tells the volume of hydrostatics beside that of the file."""
+    report = hull.export(tmp_path / "a.stl")
+    level, mine, theirs = report.displaced
+    assert theirs == pytest.approx(hull.hydrostatics(draught=level).volume, rel=1e-9)
+    assert mine == pytest.approx(theirs, rel=4e-3)
+    assert report.faults == ()
+
+
+def test_a_pressed_mesh_is_refused_with_its_place(hull: ah.Hull, tmp_path: Path) -> None:
+    """By how much its volume is off and where stands in the error; nothing is written."""
+    mesh, net, by_lines = (
+        pressed(hull.mesh(), 0.2),
+        gather_net(hull.state),
+        displaced_of(hull.state),
+    )
+    (fault,) = mesh_faults(mesh, by_lines, net)
+    part = mesh.below(6.25).volume / hull.hydrostatics(draught=6.25).volume - 1.0
+    assert f"{100.0 * part:+.2f} %" in fault
+    at = float(fault.split("x = ")[1].split(" m")[0])
+    assert 20.0 <= at <= 40.0
+    with pytest.raises(NotSoundError, match="accept"):
+        write_mesh(mesh, tmp_path / "b.stl", by_lines=by_lines, net=net)
+    assert not (tmp_path / "b.stl").exists()
+    taken = write_mesh(mesh, tmp_path / "b.stl", by_lines=by_lines, net=net, accept=True)
+    assert taken.faults == (fault,)
+
+
+def test_a_vertex_beyond_all_lines_is_told(hull: ah.Hull) -> None:
+    """A metre before the stem of a hull of 100 m."""
+    net, xyz = gather_net(hull.state), hull.mesh().xyz
+    beyond = np.concatenate([xyz, [[101.0, 0.0, 6.0]]])
+    (fault,) = extent_faults(beyond, net)
+    assert "1.000 m beyond" in fault
+    assert "(101.00, 0.00, 6.00)" in fault
+
+
+def test_the_report_of_a_surface_tells_both_volumes(hull: ah.Hull) -> None:
+    """And a volume that is off is a fault, for which no file is written."""
+    surface = hull.surface()
+    wrong = attrs.evolve(
+        surface, displaced=tuple(attrs.evolve(d, volume=0.9 * d.volume) for d in surface.displaced)
+    )
+    assert "by hydrostatics of the lines" in str(surface)
+    with pytest.raises(NotSoundError, match="where hydrostatics find"):
+        wrong.write("never.step")
+
+
+def test_a_round_bilge_without_waterlines_is_cut_finely(tmp_path: Path) -> None:
+    """Four chords to a whole section would cut the bilge off: 4.8 % of the volume."""
+    report = round_box().export(tmp_path / "box.stl")
+    _, mine, theirs = report.displaced
+    assert mine == pytest.approx(theirs, rel=4e-3)
