@@ -9,7 +9,7 @@ many parts raise, then those of one subject.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import attrs
 
@@ -113,10 +113,29 @@ def _span(least: float, most: float, unit: str) -> str:
     """Give an interval in words; an infinite end is left out."""
     unit = f" {unit}" if unit else ""
     if math.isinf(most):
-        return f"from {least:.8g}{unit} up"
+        return f"from {_inward(least, least, math.ceil):.8g}{unit} up"
     if math.isinf(least):
-        return f"up to {most:.8g}{unit}"
-    return f"from {least:.8g} to {most:.8g}{unit}"
+        return f"up to {_inward(most, most, math.floor):.8g}{unit}"
+    size = max(abs(least), abs(most))
+    low, high = _inward(least, size, math.ceil), _inward(most, size, math.floor)
+    if not low < high:  # too near one another to be rounded
+        low, high = least, most
+    return f"from {low:.8g} to {high:.8g}{unit}"
+
+
+_DIGITS = 6
+"""Digits of the ends of intervals."""
+
+
+def _inward(end: float, size: float, way: Callable[[float], int]) -> float:
+    """Round an end of an interval to the digits of a size, inward: what is told can be had."""
+    if not size or not math.isfinite(size):
+        return end
+    places = _DIGITS - 1 - math.floor(math.log10(abs(size)))
+    scaled = end * 10.0**places
+    near = round(scaled)
+    whole = near if abs(scaled - near) <= 1e-6 else way(scaled)
+    return float(f"{whole}e{-places}")
 
 
 @attrs.define(slots=False, eq=False)
@@ -748,7 +767,9 @@ class UnreachableError(AssocHullError, ValueError):
         digits = next(
             (n for n in (6, 8, 10, 12) if f"{self.asked:.{n}g}" != f"{self.best:.{n}g}"), 17
         )
-        short = f" ({self.shortfall:+.3g} % of the parent)" if self.before else ""
+        more = "more" if self.shortfall > 0.0 else "less"
+        amount = f"{abs(self.shortfall):.3g} % of the parent's value"
+        short = f" ({amount} {more} than asked)" if self.before else ""
         return (
             f"aim: cannot reach {self.target} {self.asked:.{digits}g}{unit}: best "
             f"{self.best:.{digits}g}{unit}{short}{self._reason()}"

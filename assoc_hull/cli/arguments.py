@@ -9,6 +9,7 @@ holds each key once and only finite numbers. What cannot be read is a `UsageErro
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import math
 import re
@@ -39,6 +40,7 @@ __all__ = [
     "add_water",
     "appendages_of",
     "density_of",
+    "metres",
     "number_range",
     "parse_length",
     "parse_limits",
@@ -150,12 +152,33 @@ def parse_length(text: str) -> float:
     return found
 
 
+def metres(text: str) -> float:
+    """Take a number of metres of either sign, alone or with a unit as `parse_length` knows it.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        No number, or another unit.
+
+    Examples
+    --------
+    >>> from assoc_hull.cli.arguments import metres
+    >>> metres("18"), metres("-12.5m"), metres("6 mm")
+    (18.0, -12.5, 0.006)
+    """
+    with contextlib.suppress(ValueError):
+        return float(text)
+    size = text.strip()
+    sign = -1.0 if size.startswith("-") else 1.0
+    return sign * parse_length(size.removeprefix("-").removeprefix("+"))
+
+
 # --------------------------------------------------------------------------------------
 # What is typed as NAME=VALUE, or as NAME=LOW:HIGH.
 
 
 def parse_pairs(given: list[str], option: str) -> dict[str, Any]:
-    """Take ``NAME=VALUE``; what is no number is a word.
+    """Take ``NAME=VALUE``; what is no number, nor a length with its unit, is a word.
 
     Raises
     ------
@@ -174,7 +197,7 @@ def parse_pairs(given: list[str], option: str) -> dict[str, Any]:
         if not equals or not name or not value:
             raise UsageError(f"--{option} {each}: give NAME=VALUE")
         _once(name, found, option)
-        found[name] = _value(value)
+        found[name] = _value(value, length=option == "set" and not name.endswith("_deg"))
     return found
 
 
@@ -183,13 +206,12 @@ def _once(name: str, found: Container[str], option: str) -> None:
         raise UsageError(f"--{option} {name} is given twice")
 
 
-def _value(text: str) -> float | bool | str:
+def _value(text: str, *, length: bool) -> float | bool | str:
     if text in ("true", "false"):
         return text == "true"
-    try:
-        return float(text)
-    except ValueError:
-        return text
+    with contextlib.suppress(ValueError, argparse.ArgumentTypeError):
+        return metres(text) if length else float(text)
+    return text
 
 
 def parse_limits(given: list[str], option: str) -> dict[str, list[float | None] | None]:
@@ -268,10 +290,10 @@ def add_draughts(parser: argparse.ArgumentParser) -> argparse._MutuallyExclusive
     """Add the draughts, of which one may be given, and give their group for more of the kind."""
     group = parser.add_mutually_exclusive_group()
     group.add_argument(
-        "--draught", type=float, metavar="T", help="at even keel, m (default: design)"
+        "--draught", type=metres, metavar="T", help="at even keel, m (default: design)"
     )
     group.add_argument(
-        "--draughts", type=float, nargs=2, metavar=("TA", "TF"), help="at the perpendiculars, m"
+        "--draughts", type=metres, nargs=2, metavar=("TA", "TF"), help="at the perpendiculars, m"
     )
     return group
 
@@ -370,21 +392,21 @@ def _appendage(text: str) -> Appendage:
 def add_screw(parser: argparse.ArgumentParser) -> None:
     """Add what may be told of the screw."""
     parser.add_argument(
-        "--shaft-height", type=float, metavar="Z", help="of the shaft at the screw, above base, m"
+        "--shaft-height", type=metres, metavar="Z", help="of the shaft at the screw, above base, m"
     )
-    parser.add_argument("--propeller-diameter", type=float, metavar="D", help="m")
+    parser.add_argument("--propeller-diameter", type=metres, metavar="D", help="m")
     parser.add_argument(
-        "--screw-x", type=float, metavar="X", help="plane of the screw, from AP, + forward, m"
-    )
-    parser.add_argument(
-        "--shaft-spacing", type=float, metavar="M", help="between the shafts of two screws, m"
+        "--screw-x", type=metres, metavar="X", help="plane of the screw, from AP, + forward, m"
     )
     parser.add_argument(
-        "--boss-diameter", type=float, metavar="D", help="of the stern boss at its aft face, m"
+        "--shaft-spacing", type=metres, metavar="M", help="between the shafts of two screws, m"
+    )
+    parser.add_argument(
+        "--boss-diameter", type=metres, metavar="D", help="of the stern boss at its aft face, m"
     )
     parser.add_argument(
         "--boss-x",
-        type=float,
+        type=metres,
         metavar="X",
         help="aft face of the stern boss, from AP, + forward, m",
     )

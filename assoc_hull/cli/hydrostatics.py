@@ -25,6 +25,7 @@ from assoc_hull.cli.arguments import (
     add_water,
     appendages_of,
     density_of,
+    metres,
     number_range,
 )
 from assoc_hull.cli.output import emit, progress
@@ -198,15 +199,15 @@ def _add_position(parser: argparse.ArgumentParser) -> None:
         "--weight", type=float, metavar="W", help="find the draughts that carry it, t"
     )
     parser.add_argument(
-        "--trims", type=float, nargs="+", metavar="M", help="with --table: + by the stern, m"
+        "--trims", type=metres, nargs="+", metavar="M", help="with --table: + by the stern, m"
     )
-    parser.add_argument("--lcg", type=float, metavar="X", help="with --weight: from AP, m")
+    parser.add_argument("--lcg", type=metres, metavar="X", help="with --weight: from AP, m")
     parser.add_argument("--heel", type=float, default=0.0, metavar="DEG", help="+ starboard down")
 
 
 def _add_terms(parser: argparse.ArgumentParser) -> None:
     add_water(parser)
-    parser.add_argument("--kg", type=float, metavar="Z", help="centre of gravity above base, m")
+    parser.add_argument("--kg", type=metres, metavar="Z", help="centre of gravity above base, m")
     parser.add_argument(
         "--transom", action="store_true", help="count the immersed transom as wetted surface"
     )
@@ -215,10 +216,10 @@ def _add_terms(parser: argparse.ArgumentParser) -> None:
         help="2: tell the numbers of a ship of two such demihulls",
     )  # fmt: skip
     parser.add_argument(
-        "--separation", type=float, metavar="M", help="between the centre planes of two, m"
+        "--separation", type=metres, metavar="M", help="between the centre planes of two, m"
     )
     parser.add_argument(
-        "--keel-thickness", type=float, default=0.0, metavar="M",
+        "--keel-thickness", type=metres, default=0.0, metavar="M",
         help="from the base line to the underside of keel, m",
     )  # fmt: skip
     parser.add_argument(

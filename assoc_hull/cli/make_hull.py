@@ -15,7 +15,14 @@ from typing import Any
 import attrs
 
 from assoc_hull.arguments import regular_file
-from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_json, add_replace
+from assoc_hull.cli.arguments import (
+    PICTURE_ENDINGS,
+    Commands,
+    add_command,
+    add_json,
+    add_replace,
+    metres,
+)
 from assoc_hull.cli.hull_words import hull_words, import_words
 from assoc_hull.cli.output import emit, plain, progress, progress_bar, say
 from assoc_hull.cli.problems import (
@@ -121,7 +128,7 @@ def _add_import(commands: Commands) -> None:
         ("draught-fwd", "design draught at the FP"),
         ("frame-spacing", "of a table: distance of frames, if its stations are frame numbers"),
     ):  # fmt: skip
-        parser.add_argument(f"--{name}", type=float, metavar="M", help=f"{what}, m")
+        parser.add_argument(f"--{name}", type=metres, metavar="M", help=f"{what}, m")
     for name, what in (
         ("ap", "x of the aft perpendicular"), ("fp", "x of the forward perpendicular"),
         ("base", "height of the base line"), ("waterline", "height of the design waterline"),

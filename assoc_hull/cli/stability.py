@@ -17,6 +17,7 @@ from assoc_hull.cli.arguments import (
     add_water,
     appendages_of,
     density_of,
+    metres,
     number_range,
 )
 from assoc_hull.cli.output import emit, progress
@@ -63,11 +64,11 @@ def _add_condition(parser: argparse.ArgumentParser) -> None:
     )
     group = add_draughts(parser)
     group.add_argument("--weight", type=float, metavar="W", help="all of it, t")
-    parser.add_argument("--lcg", type=float, metavar="X", help="with --weight: from AP, m")
+    parser.add_argument("--lcg", type=metres, metavar="X", help="with --weight: from AP, m")
     parser.add_argument(
-        "--tcg", type=float, metavar="Y", help="centre of gravity to port, m (default: 0)"
+        "--tcg", type=metres, metavar="Y", help="centre of gravity to port, m (default: 0)"
     )
-    parser.add_argument("--kg", type=float, metavar="Z", help="centre of gravity above base, m")
+    parser.add_argument("--kg", type=metres, metavar="Z", help="centre of gravity above base, m")
     parser.add_argument(
         "--trim", choices=("fixed", "free"),
         help="as she heels: that of upright (default), or that of equilibrium",

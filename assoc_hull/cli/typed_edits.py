@@ -119,6 +119,17 @@ def _taken(option: str, into: inspect.Parameter | None, rest: deque[str]) -> str
     return rest.popleft()
 
 
+def _with_units(words: Sequence[str]) -> list[str]:
+    """Join a number and its unit that were typed with a blank between them: ``20 mm``."""
+    found = list[str]()
+    for word in words:
+        if word in ("m", *_POWERS) and found and _NUMBER.fullmatch(found[-1].rpartition("=")[2]):
+            found[-1] += word
+        else:
+            found.append(word)
+    return found
+
+
 def typed_edit(operation: str, words: Sequence[str]) -> Mapping[str, object]:
     """Give what was typed as a modification of a script.
 
@@ -143,7 +154,7 @@ def typed_edit(operation: str, words: Sequence[str]) -> Mapping[str, object]:
     free = any(each.kind is each.VAR_KEYWORD for each in takes.values())
     left = [name for name in order if takes[name].kind is not takes[name].KEYWORD_ONLY]
     given = dict[str, object]()
-    for typed in words:
+    for typed in _with_units(words):
         word = typed.strip()
         named = _NAMED.fullmatch(word)
         if named and (named[1] in order or free):

@@ -24,6 +24,7 @@ from assoc_hull.cli.arguments import (
     add_replace,
     add_screw,
     add_wait,
+    metres,
     parse_limits,
     parse_pairs,
     screw_of,
@@ -371,7 +372,7 @@ def _add_shift(commands: Commands) -> None:
         help="how the movement rises and falls between parallel body and end (default: c2)",
     )  # fmt: skip
     parser.add_argument(
-        "--terminals", metavar="M", nargs=4, type=float,
+        "--terminals", metavar="M", nargs=4, type=metres,
         help="after terminal, start and end of the parallel body, fore terminal, m from AP "
         "(default: as measured)",
     )  # fmt: skip
@@ -398,7 +399,7 @@ def _add_swing(commands: Commands) -> None:
         ("breadth", "alone: the draught gives way"), ("draught", "alone: the breadth gives way"),
     ):  # fmt: skip
         parser.add_argument(
-            f"--{name}", type=float, metavar="M", help=f"{name} that it is to have, m; {rest}"
+            f"--{name}", type=metres, metavar="M", help=f"{name} that it is to have, m; {rest}"
         )
     add_out(parser)
 
@@ -412,10 +413,10 @@ def _add_jumboise(commands: Commands) -> None:
     )  # fmt: skip
     add_hull(parser)
     parser.add_argument(
-        "length", type=float, metavar="M", help="to insert, m; below 0: to take out"
+        "length", type=metres, metavar="M", help="to insert, m; below 0: to take out"
     )
     parser.add_argument(
-        "--at", type=float, metavar="X",
+        "--at", type=metres, metavar="X",
         help="where to cut, m from AP: the nearest section of the parallel body is taken "
         "(default: that nearest to its middle)",
     )  # fmt: skip
@@ -509,7 +510,7 @@ def add_compare(commands: Commands) -> None:
             name, metavar=name.upper(), type=Path, help="a .hull or .hull.json file"
         )
     parser.add_argument(
-        "--draught", type=float, metavar="T",
+        "--draught", type=metres, metavar="T",
         help="moulded, even keel, for the numbers of both, m (default: the design draught of each)",
     )  # fmt: skip
     add_screw(parser)

@@ -681,11 +681,13 @@ class Document:
         except TypeError:
             wanted = 0
         if not 1 <= wanted <= len(steps):
-            raise BadInputError(
-                f"{shown(count)} steps were asked and there are {len(steps)} to {act}",
-                f"in {act}",
-                f"give a number from 1 to {len(steps)}" if steps else f"there is nothing to {act}",
+            what = f"{shown(count)} steps were asked and there are {len(steps)} to {act}"
+            remedy = (
+                f"give a number from 1 to {len(steps)}" if steps else f"there is nothing to {act}"
             )
+            if wanted < 1 and steps:
+                what, remedy = f"{shown(count)} steps were asked", "give 1 or more"
+            raise BadInputError(what, f"in {act}", remedy)
 
     def _revisions(self, step: Step) -> _Revisions:
         """Give the revisions of everything whose geometry a step changes, as they are."""

@@ -170,7 +170,8 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ),
         ValueError,
         [
-            "aim: cannot reach volume 57238.8 m3: best 52698.2 m3 (-8.73 % of the parent), "
+            "aim: cannot reach volume 57238.8 m3: best 52698.2 m3 "
+            "(8.73 % of the parent's value less than asked), "
             "fore_shift and aft_shift at their bounds"
         ],
     ),
@@ -326,3 +327,13 @@ def test_a_message_reads_well_without_its_optional_part(
 ) -> None:
     """What is absent leaves no gap in the sentence."""
     assert str(error) == message
+
+
+def test_ends_of_an_interval_are_told_rounded_inward() -> None:
+    """What is told can be had, and rounding of sums is not told."""
+    error = errors.OutOfRangeError("a draught", 30.0, "at T", "", -0.0038470618, 8.2000002, "m")
+    assert "give one from -0.00384 to 8.2 m" in str(error)
+    exact = errors.OutOfRangeError("a draught", 30.0, "at T", "", 0.1, 0.1 + 0.2, "m")
+    assert "from 0.1 to 0.3 m" in str(exact)
+    close = errors.OutOfRangeError("a draught", 3.0, "at T", "", 1.0000001, 1.0000004, "m")
+    assert "from 1.0000001 to 1.0000004 m" in str(close)

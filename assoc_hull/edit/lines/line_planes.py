@@ -92,8 +92,8 @@ def ready_group(edit: Transaction, name: object, position: ArrayLike) -> str:
     edit.maker.group(group, group)
     for partner in _PARTNERS[group]:
         if partner in names:
-            pair = sorted((partner, group), key=lambda each: FAMILIES[each].rank)
-            edit.maker.associate(Association(*pair))
+            first, second = sorted((partner, group), key=lambda each: FAMILIES[each].rank)
+            edit.maker.associate(Association(first, second))
     return group
 
 

@@ -654,7 +654,8 @@ def _group(name: str, points: FloatArray, where: str, small: float) -> str:
     if len(flat) != 1:
         raise BadInputError(
             f"{name!r} is no section, waterline or buttock by its points", f"in {where}",
-            "begin its name with ST, WL or BTK, or call it profile, deck edge or transom",
+            "begin its name with ST, WL or BTK, or call it profile, deck edge or transom; leave a "
+            "chine or knuckle line out: it is found where the sections turn",
         )  # fmt: skip
     return flat[0]
 

@@ -295,13 +295,17 @@ def _checked(state: HullState, *, sized: bool) -> Iterator[ImportFinding]:
         yield ImportFinding(each.kind, f"{each.object}{place}", what, each.amount)
 
 
+_LONGEST_MODEL = 25.0
+"""m: no model of a ship is longer."""
+
+
 def _unfold(state: HullState, *, sized: bool) -> str:
     """Say what to do about a line that folds: details of a model are finer than a boat's.
 
     A hull as long as was said is no model.
     """
     remedy = "mend the line there, give it more points, or cut at other places"
-    if sized or state.tolerances.factor == 1.0:
+    if sized or state.particulars.length > _LONGEST_MODEL:
         return remedy
     return f"if this is the model of a ship give scale=, full scale over it; else {remedy}"
 

@@ -615,20 +615,34 @@ def _profile_of(state: HullState) -> FloatArray | None:
     return None
 
 
+_FLAT_END = 0.5
+"""A last station as broad as this part of the ship is taken for a flat end."""
+
+
 def _open_ends(table: OffsetTable, profile: FloatArray) -> Iterator[str]:
     """Tell where the profile stops below the deck, and which row of the table would close it."""
     known = np.full(1, table.z[-1]) if table.deck_height is None else table.deck_height
     known = known[np.isfinite(known)]
-    for name, place, deck, way in (
-        ("stern", profile[0], known[0], "aft"), ("stem", profile[-1], known[-1], "forward"),
+    broadest = float(np.nanmax(table.half_breadth))
+    for row, name, place, deck, way in (
+        (0, "stern", profile[0], known[0], "aft"), (-1, "stem", profile[-1], known[-1], "forward"),
     ):  # fmt: skip
-        if place[2] < deck - _UPRIGHT:
-            yield (
-                f"the {name} is open from x = {place[0]:.6g} m, z = {place[2]:.6g} m up to the "
-                f"deck at {deck:.6g} m: give one more station {way}, where the {name} meets the "
-                f"deck, with keel {deck:.6g} and blank half-breadths; or a row of zeros where it "
-                "is upright"
-            )
+        if not place[2] < deck - _UPRIGHT:
+            continue
+        broad = float(np.nanmax(table.half_breadth[row], initial=0.0))
+        remedy = (
+            f"give one more station {way}, where the {name} meets the deck, with keel {deck:.6g} "
+            "and blank half-breadths; or, where it is upright, a station of zeros a little "
+            f"{'abaft' if row == 0 else 'forward of'} the last"
+        ) if broad <= _FLAT_END * broadest else (
+            f"the last station there, at x = {table.x[row]:.6g} m, is {broad:.4g} m out: if she "
+            f"ends flat, a table cannot say so; give her as lines, with that end as a curve "
+            f"'{'transom' if row == 0 else 'bow end'}'"
+        )  # fmt: skip
+        yield (
+            f"the {name} is open from x = {place[0]:.6g} m, z = {place[2]:.6g} m up to the deck "
+            f"at {deck:.6g} m: {remedy}"
+        )
 
 
 def _drawn_ends(

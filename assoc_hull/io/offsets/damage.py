@@ -182,6 +182,9 @@ def _gaps(patient: ExaminedTable, book: Notebook) -> None:
 _END = 0.06
 """A stem has no larger part of the greatest section below the draught than this."""
 
+_FLAT = 0.5
+"""Nothing but a flat end has as large a part as this."""
+
 _SHORT = 0.01
 """So large a part of it may be left where a table ends short of a perpendicular."""
 
@@ -200,11 +203,19 @@ def _cut_off(patient: ExaminedTable, book: Notebook) -> None:
         part = float(area[i]) / largest
         reached = short < 0.4 * step
         blunt = name == "forward" and part > _END and patient.draught is not None
+        blunt = blunt or part > _FLAT
         if (not reached and part > _SHORT) or blunt:
             where = f"{name} of station {patient.stations[i]}"
-            what = f"the table ends in a section of {100 * part:.2g} % of the greatest"
+            share = f"{100 * part:.{3 if part >= 0.1 else 2}g} %"
+            what = f"the table ends in a section of {share} of the greatest"
             gap = f", {short:.4g} m from the perpendicular" if not reached else ""
-            book.suspect("missing station", where, f"{what}{gap}: is a station missing?", part)
+            asks = "is a station missing?"
+            if part > _FLAT:
+                asks += (
+                    " If she ends flat there, give her as lines with that end as a curve "
+                    f"'{'transom' if i == 0 else 'bow end'}': a table states no flat ends"
+                )
+            book.suspect("missing station", where, f"{what}{gap}: {asks}", part)
 
 
 # --------------------------------------------------------------------------------------

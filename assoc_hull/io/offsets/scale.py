@@ -255,7 +255,7 @@ def _tell_units(given: BlockUnits, told: BlockUnits, book: Notebook) -> None:
     units = set(said.values())
     each = ", ".join(f"{name} {unit}" for name, unit in said.items() if unit)
     words = units.pop() if len(units) == 1 else each
-    book.assume("unit", "the comments", f"{words}, as the comments say")
+    book.assume("unit", "the table", f"{words}, as its comments or the names of its columns say")
 
 
 def likely_unit(printed: PrintedSizes, breadth: float | None, book: Notebook, source: str) -> str:

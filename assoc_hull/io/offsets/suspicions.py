@@ -147,10 +147,24 @@ def _values(patient: ExaminedTable, printed: PrintedOffsets, book: Notebook) -> 
         book.suspect("outlier", where, what, off)
 
 
+_LEVEL = 1e-3
+"""m: heights that differ by less are one."""
+
+
+def _keel_at_deck(patient: ExaminedTable, i: int) -> bool:
+    """Tell whether a first or last station is a point: its keel is as high as the deck."""
+    if patient.keel is None or i not in (0, len(patient.y) - 1):
+        return False
+    deck = patient.z[-1] if patient.deck is None else np.fmin(patient.deck[i], patient.z[-1])
+    return bool(patient.keel[i] >= deck - _LEVEL)
+
+
 def _blanks(patient: ExaminedTable, book: Notebook) -> None:
     for i, row in enumerate(patient.y):
         known = np.flatnonzero(np.isfinite(row))
         if not len(known):
+            if _keel_at_deck(patient, i):
+                continue  # there the stem or stern meets the deck: no half-breadth is left
             book.suspect("blank", f"station {patient.stations[i]}", "the station has no offset")
             continue
         _outer_blanks(patient, i, int(known[0]), int(known[-1]), book)

@@ -70,6 +70,6 @@ def test_an_unknown_group_names_those_there_are_and_those_that_can_be_made(box: 
 def test_a_line_given_for_a_point_is_answered_with_points_of_that_line(box: ah.Hull) -> None:
     """As every point has a name of its own."""
     with pytest.raises(UnknownNameError) as caught, box.edit("x") as edit:
-        edit.pull("ST 3", 0.05, 2.0)
+        edit.pull("ST 3", 0.05)
     near = str(caught.value)
     assert "ST 3 " in near.partition(";")[2]
