@@ -17,7 +17,9 @@ def test_giving_a_definition_other_values_whatever_is_generated() -> None:
     with (
         pytest.raises(
             UnknownNameError,
-            match=re.escape("there is no definition named 'sectional areas'; there is none of any name"),
+            match=re.escape(
+                "there is no definition named 'sectional areas'; there is none of any name"
+            ),
         ),
         Edit(Document(wigley()), "fuller") as edit,
     ):
