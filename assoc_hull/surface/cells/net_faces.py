@@ -95,7 +95,7 @@ def check_faces(graph: NetGraph, start: IntArray, member: IntArray) -> None:
     euler = len(graph.place) - len(graph.edge) + len(start) - 1
     if euler != 2:
         raise OpenNetError(
-            f"nodes - edges + faces is {euler}, not 2, as where a crossing is missing",
+            f"lines pass one another and do not cross (nodes - edges + faces is {euler}, not 2)",
             missed_crossings(graph, _FAR) or _pinched(graph, start, member),
             "associate the groups of these lines, or leave one of them out",
         )
