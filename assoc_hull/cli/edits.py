@@ -145,7 +145,7 @@ def preview_words(hull: Hull, found: Preview, indent: str = "  ") -> Iterator[st
         yield from _group(group, tuple(lines), indent)
     yield from _remains(hull, report, indent)
     yield from _displaces(hull, found, indent)
-    yield from lists(report, indent)
+    yield from lists(hull, report, indent)
     yield from _beside(hull, found.plain, indent)
 
 

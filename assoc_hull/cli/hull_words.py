@@ -340,12 +340,12 @@ def edit_words(hull: Hull, report: EditReport, indent: str = "  ") -> str:
     counts = ", ".join(f"{name} {len(names)}" for name, names in groups.items())
     lines = [
         f"{indent}followed     {len(report.relofted)} curves re-lofted ({counts or 'none'})",
-        f"{indent}stopped      at {report.cut_off} points that came out with the same bits",
+        f"{indent}stopped      at {report.cut_off} points that came out as they were",
         *(wrap_text(name, names, indent) for name, names in groups.items()),
         *_moved(hull, report, indent),
         f"{indent}largest gap  {1e3 * report.largest_gap:.2f} mm; "
         f"{sum(count for _, count in report.inflections)} new inflections",
-        *lists(report, indent),
+        *lists(hull, report, indent),
     ]
     return "\n".join(lines)
 
@@ -370,9 +370,26 @@ def _movement(hull: Hull, movement: Movement, way: str = "") -> str:
     return f"{name}, by {1e3 * movement.distance:.1f} mm{way}, to ({x:.3f}, {y:.3f}, {z:.3f}) m"
 
 
-def lists(report: EditReport, indent: str) -> Iterator[str]:
+def lists(hull: Hull, report: EditReport, indent: str) -> Iterator[str]:
     """Name what appeared, vanished, was mended or could not be made."""
+    book = AddressBook(hull.state)
     for title in ("born", "gone", "mended", "failed", "blocked", "notes"):
         names: Sequence[str] = getattr(report, title)
         if names:
-            yield wrap_text(title, names, indent)
+            yield wrap_text(title, [_spoken(book, each) for each in names], indent)
+
+
+def _spoken(book: AddressBook, key: str) -> str:
+    """Give what is called by a key its name; of a crossing that is not there the two lines'."""
+    found = book.keys.get(key)
+    if found is not None and found.row >= 0:
+        return book.address(found.row)
+    crossing, _, sense = key.rpartition(" ")
+    ends = crossing.split(" x ")
+    if len(ends) != 2 or not sense.lstrip("+-").isdigit():
+        return key
+    lines = (book.keys.get(each) for each in ends)
+    return " x ".join(
+        each if line is None else book.line_name(line.line)
+        for each, line in zip(ends, lines, strict=True)
+    )

@@ -64,6 +64,11 @@ def _end(name: str, points: np.ndarray, normal: tuple[int, int, int], offset: fl
 
 def box_net(stations: int = 5, deck: str = "closed") -> ah.Hull:
     """The box of the reference table; its two ends are transoms."""
+    return box_of_lines(box_lines(stations), deck)
+
+
+def box_lines(stations: int) -> list[LineSource]:
+    """The lines of the box."""
     half = 0.5 * BREADTH
     chine = np.array([[0.0, half, 0.0], [LENGTH, half, 0.0]])
     lines = [
@@ -78,6 +83,11 @@ def box_net(stations: int = 5, deck: str = "closed") -> ah.Hull:
         LineSource.make("sections", f"ST {k}", _rim(x), kind=[0, KNUCKLE, 0])
         for k, x in enumerate(places, 1)
     ]
+    return lines
+
+
+def box_of_lines(lines: list[LineSource], deck: str = "closed") -> ah.Hull:
+    """A hull of such lines."""
     ship = Particulars("Box", LENGTH, BREADTH, DEPTH, 6.0, deck)
     links = [Association("boundary", "sections")]
     return ah.Hull.from_lines(lines, particulars=ship, associations=links)
@@ -135,8 +145,20 @@ def test_a_box_is_the_same_with_any_number_of_sections(stations: int) -> None:
 def test_a_heel_that_drowns_an_open_deck_is_refused() -> None:
     """The error names draught and range; closed, the same box floats with a wet deck edge."""
     with pytest.raises(
-        ah.errors.OutOfRangeError, match=r"8 m drowns the open deck.*from .* to 3\.60900"
+        ah.errors.OutOfRangeError, match=r"8 m drowns the open deck.*from .* to 3\.609 "
     ):
         box_net(deck="open").hydrostatics(draught=8.0, heel_deg=40.0)
     found = box_net(deck="open").hydrostatics(draught=8.0, heel_deg=20.0)
     assert found.volume == pytest.approx(16000.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("kg", "word"), [(-1.0, "below the base line"), (90.0, "than the ship is broad")]
+)
+def test_a_centre_of_gravity_where_none_lies_is_remarked_on(
+    box: ah.Hull, kg: float, word: str
+) -> None:
+    """In every table that takes it; one within the ship is not."""
+    assert word in str(box.hydrostatics(draught=5.0, kg=kg))
+    assert "check its unit" in str(box.stability(kg=kg, draught=5.0))
+    assert "check its unit" not in str(box.hydrostatics(draught=5.0, kg=4.0))

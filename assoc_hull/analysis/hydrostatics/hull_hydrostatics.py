@@ -8,7 +8,7 @@ tangents and errors too. All of a record is computed for d planes at once: array
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, Literal
 
 import attrs
@@ -667,7 +667,17 @@ def doubts_of(
     if refused and on_error == "refuse":
         more = f" (and {len(refused) - 1} more)" if len(refused) > 1 else ""
         raise BadInputError(refused[0] + more, where, _remedy(body, header, positions))
-    return doubts
+    return (*doubts, *_unusual_centre(header))
+
+
+def _unusual_centre(header: HydrostaticHeader) -> Iterator[str]:
+    """Remark on a centre of gravity where that of no ship lies."""
+    if header.kg is None or 0.0 <= header.kg <= header.breadth:
+        return
+    where = "below the base line" if header.kg < 0.0 else (
+        f"higher above the base line than the ship is broad, {header.breadth:.5g} m"
+    )  # fmt: skip
+    yield f"KG of {header.kg:.5g} m lies {where}: check its unit, its sign and what it counts from"
 
 
 def _refused(doubts: Iterable[str]) -> list[str]:

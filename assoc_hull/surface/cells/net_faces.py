@@ -58,7 +58,8 @@ def check_lines(graph: NetGraph) -> None:
         )  # fmt: skip
     if len(graph.loose):
         raise OpenNetError(
-            "lines end on no other line", _ends(graph.net, graph.loose), _where_to_end(graph.net),
+            "lines end on no other line", _ends(graph.net, graph.loose),
+            _where_to_end(graph.net, graph.loose[:, 0]),
         )  # fmt: skip
     part = merge_linked(len(graph.place), graph.edge)
     if (part != part[0]).any():
@@ -71,9 +72,15 @@ def check_lines(graph: NetGraph) -> None:
         )  # fmt: skip
 
 
-def _where_to_end(net: CurveNet) -> str:
+def _where_to_end(net: CurveNet, loose: IntArray) -> str:
     """Say what to do about lines that end on no other line."""
-    if (net.end & net.centre).any():
+    profile = net.end & net.centre
+    if profile[loose].any():
+        return (
+            "where the hull ends in a flat plate, as a transom, end the profile at its foot: the "
+            "plate goes on from there to the deck edge; else draw the line that they end on"
+        )
+    if profile.any():
         return "draw the line that they end on, or lead them to one"
     return (
         "the hull has no profile to end on: import her once more with one, of a table by a column "
@@ -95,7 +102,7 @@ def check_faces(graph: NetGraph, start: IntArray, member: IntArray) -> None:
     euler = len(graph.place) - len(graph.edge) + len(start) - 1
     if euler != 2:
         raise OpenNetError(
-            f"nodes - edges + faces is {euler}, not 2, as where a crossing is missing",
+            f"lines pass one another and do not cross (nodes - edges + faces is {euler}, not 2)",
             missed_crossings(graph, _FAR) or _pinched(graph, start, member),
             "associate the groups of these lines, or leave one of them out",
         )
@@ -147,7 +154,8 @@ def check_outline(graph: NetGraph, outline: IntArray) -> None:
         raise OpenNetError(
             "there is more than one outer face; lines at which the hull ends lie within it",
             tuple(graph.net.name[c] for c in curves),
-            "join them to the outer border, or make them knuckles",
+            "join them to the outer border: an end in a flat plate, as a transom, runs from the "
+            "end of the profile to that of the deck edge and no farther; or make them knuckles",
         )  # fmt: skip
 
 

@@ -115,8 +115,8 @@ class AimReport(ShownAsText):
         # of targets that are met the residual is rounding
         rest = "" if self.reached else f", residual {self.residual:.1e}"
         return (
-            f"aim: {what} after {count} step{'s' * (count != 1)}{rest}, condition "
-            f"{self.condition:.3g}, total change {self.change:.4g}"
+            f"aim: {what} after {count} step{'s' * (count != 1)}{rest}; condition number of the "
+            f"targets {self.condition:.3g}, all changes {self.change:.4g} times the usual ones"
         )
 
     def _reached(self) -> list[str]:

@@ -432,7 +432,8 @@ class ShiftReport(ShownAsText):
             *(str(each).removesuffix(" -") for each in self.targets),
             f"shape {self.shift.terms.shape}, terminals {at.aft:.6g}, {at.start:.6g}, "
             f"{at.end:.6g}, {at.fore:.6g} m; c_f {self.fore:+.6g} m, c_a {self.aft:+.6g} m",
-            f"largest movement {self.shift.largest:.4g} m, least 1+delta' {self.shift.least:.4f}",
+            f"largest movement {self.shift.largest:.4g} m, lengths between sections at least "
+            f"{self.shift.least:.4f} times as before",
             f"closed form {self.steps[0].residual:.1e} off, after {len(self.steps) - 1} steps "
             f"{self.residual:.1e}",
             *self.notes,

@@ -268,3 +268,15 @@ def test_a_tunnel_is_typed_and_told(
     assert "tunnel takes NAME x= z= radius=" in capsys.readouterr().err
     facts("edit", hull, "remove_tunnel", "bow thruster")
     assert ah.open(hull).fingerprint == before
+
+
+def test_what_was_born_is_told_by_the_names_of_lines(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """No key of the program, such as ``sections:36.000000 +1``, is shown."""
+    path = tmp_path / "ship.hull"
+    ah.examples.wigley().save(path)
+    assert main(["edit", str(path), "add_line", "waterlines", "3.3"]) == 0
+    told = capsys.readouterr().out.partition("born")[2]
+    assert "ST 7 x WL 3.3" in told or "WL 3.3 x ST 7" in told
+    assert "sections:" not in told

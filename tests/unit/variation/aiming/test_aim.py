@@ -352,7 +352,10 @@ def test_a_report_says_what_was_reached_and_by_what() -> None:
     ship = FormulaShip(("breadth", "fore", "aft"), OUTPUTS[:3])
     found = aim(ship, changed(ship))
     lines = str(found).splitlines()
-    assert lines[0] == "aim: met after 4 steps, condition 7.91, total change 2.585"
+    assert lines[0] == (
+        "aim: met after 4 steps; condition number of the targets 7.91, "
+        "all changes 2.585 times the usual ones"
+    )
     assert lines[1:4] == [
         "volume 10536.7 -> 10642.0333 m3", "lcb 1.56189 -> 1.92189271 m",
         "kmt 8.50667 -> 8.70667299 m",
