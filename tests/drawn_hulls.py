@@ -73,3 +73,19 @@ def transom_boat(path: Path) -> ah.Hull:
     return ah.read(
         written(lines, path / "boat.csv"), draught=1.0, ap=0.0, deck="closed", accept=True
     )
+
+
+def raked_barge(path: Path) -> ah.Hull:
+    """Read a barge with raked ends, that turn at x = 6 and 50 m; few stations beside these."""
+
+    def keel(x: float) -> float:
+        return 4.0 * max(0.0, (6.0 - x) / 6.0, (x - 50.0) / 10.0)
+
+    stations = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 20.0, 30.0, 40.0, 46.0, 50.0, 52.0, 54.0, 56.0)
+    lines = [(f"ST {x:g}", frame(x, keel(x))) for x in stations]
+    lines += [
+        ("profile", [(x, 0.0, keel(x)) for x in (1.5, 6.0, 50.0, 57.5)]),
+        ("deck edge", [(1.5, HALF, DEPTH), (57.5, HALF, DEPTH)]),
+        ("transom", frame(1.5, 3.0)), ("bow end", frame(57.5, 3.0)),
+    ]  # fmt: skip
+    return ah.read(written(lines, path / "raked.csv"), draught=2.5, ap=0.0, deck="closed")
