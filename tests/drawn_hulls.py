@@ -89,3 +89,24 @@ def raked_barge(path: Path) -> ah.Hull:
         ("transom", frame(1.5, 3.0)), ("bow end", frame(57.5, 3.0)),
     ]  # fmt: skip
     return ah.read(written(lines, path / "raked.csv"), draught=2.5, ap=0.0, deck="closed")
+
+
+def half_chined(path: Path) -> ah.Hull:
+    """Read a hull of 60 m with flat ends: round frames aft, forward frames with a chine."""
+    turn = np.linspace(0.0, 0.5 * np.pi, 25)
+
+    def rib(x: float) -> list[Place]:
+        if x > 25.0:
+            return [(x, 0.0, 0.0), (x, HALF - 1.0, 1.0), (x, HALF, DEPTH)]
+        way = zip(np.sin(turn) ** 0.5, 1.0 - np.cos(turn) ** 0.5, strict=True)
+        return [(x, float(HALF * y), float(DEPTH * z)) for y, z in way]
+
+    lines = [(f"ST {x:g}", rib(x)) for x in (5.0, 10.0, 15.0, 20.0, 30.0, 35.0, 40.0, 50.0, 55.0)]
+    lines += [
+        ("profile", [(0.0, 0.0, 0.0), (LENGTH, 0.0, 0.0)]),
+        ("deck edge", [(0.0, HALF, DEPTH), (LENGTH, HALF, DEPTH)]),
+        ("transom", rib(0.0)), ("bow end", rib(LENGTH)),
+    ]  # fmt: skip
+    return ah.read(
+        written(lines, path / "half.csv"), draught=2.5, ap=0.0, deck="closed", accept=True
+    )
