@@ -73,3 +73,40 @@ def transom_boat(path: Path) -> ah.Hull:
     return ah.read(
         written(lines, path / "boat.csv"), draught=1.0, ap=0.0, deck="closed", accept=True
     )
+
+
+def raked_barge(path: Path) -> ah.Hull:
+    """Read a barge with raked ends, that turn at x = 6 and 50 m; few stations beside these."""
+
+    def keel(x: float) -> float:
+        return 4.0 * max(0.0, (6.0 - x) / 6.0, (x - 50.0) / 10.0)
+
+    stations = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 20.0, 30.0, 40.0, 46.0, 50.0, 52.0, 54.0, 56.0)
+    lines = [(f"ST {x:g}", frame(x, keel(x))) for x in stations]
+    lines += [
+        ("profile", [(x, 0.0, keel(x)) for x in (1.5, 6.0, 50.0, 57.5)]),
+        ("deck edge", [(1.5, HALF, DEPTH), (57.5, HALF, DEPTH)]),
+        ("transom", frame(1.5, 3.0)), ("bow end", frame(57.5, 3.0)),
+    ]  # fmt: skip
+    return ah.read(written(lines, path / "raked.csv"), draught=2.5, ap=0.0, deck="closed")
+
+
+def half_chined(path: Path) -> ah.Hull:
+    """Read a hull of 60 m with flat ends: round frames aft, forward frames with a chine."""
+    turn = np.linspace(0.0, 0.5 * np.pi, 25)
+
+    def rib(x: float) -> list[Place]:
+        if x > 25.0:
+            return [(x, 0.0, 0.0), (x, HALF - 1.0, 1.0), (x, HALF, DEPTH)]
+        way = zip(np.sin(turn) ** 0.5, 1.0 - np.cos(turn) ** 0.5, strict=True)
+        return [(x, float(HALF * y), float(DEPTH * z)) for y, z in way]
+
+    lines = [(f"ST {x:g}", rib(x)) for x in (5.0, 10.0, 15.0, 20.0, 30.0, 35.0, 40.0, 50.0, 55.0)]
+    lines += [
+        ("profile", [(0.0, 0.0, 0.0), (LENGTH, 0.0, 0.0)]),
+        ("deck edge", [(0.0, HALF, DEPTH), (LENGTH, HALF, DEPTH)]),
+        ("transom", rib(0.0)), ("bow end", rib(LENGTH)),
+    ]  # fmt: skip
+    return ah.read(
+        written(lines, path / "half.csv"), draught=2.5, ap=0.0, deck="closed", accept=True
+    )

@@ -16,12 +16,12 @@ import numpy as np
 
 from assoc_hull.analysis.hydrostatics.accuracy import MildDoubt
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition, planes_of
-from assoc_hull.analysis.hydrostatics.flotation import body_of
+from assoc_hull.analysis.hydrostatics.flotation import body_of, flotation
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
 from assoc_hull.analysis.hydrostatics.record import Hydrostatics
 from assoc_hull.edit.document import Document
 from assoc_hull.errors import OutOfRangeError
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.io.importing.soundness import look, sampled_places
 from assoc_hull.io.importing.verdict import Findings
 from assoc_hull.model.tables import HullState, Particulars
@@ -142,11 +142,32 @@ def _floating(state: HullState, found: Findings) -> Hydrostatics | None:
             what = doubt
             if not isinstance(doubt, MildDoubt):
                 what += (
-                    ": check these numbers; hydrostatics need on_error='report' (--on-error report)"
+                    ": check these numbers; hydrostatics need on_error='report' (--on-error "
+                    f"report){_bends_of_profile(state)}"
                 )
             found.suspect("doubtful numbers", "the net", what)
     return record
 
+
+def _bends_of_profile(state: HullState) -> str:
+    """Name corners of the profile between the ends, which stations far apart round off."""
+    body = flotation(state)
+    xyz = body.net.batch.xyz
+    curve = np.arange(body.net.batch.count).repeat(np.diff(body.net.batch.start))
+    bends = xyz[(body.kinds == PointKind.KNUCKLE) & body.net.centre[curve], 0]
+    low, high = float(xyz[:, 0].min()), float(xyz[:, 0].max())
+    inside = (bends > low + _BEND * (high - low)) & (bends < high - _BEND * (high - low))
+    places = [f"{x:.2f}" for x in np.unique(bends[inside].round(2)).tolist()]
+    if not places:
+        return ""
+    return (
+        f"; the profile has corners at x = {', '.join(places)} m: give stations close before and "
+        "behind each, as the hull is drawn round between stations far apart"
+    )
+
+
+_BEND = 0.01
+"""So near to an end, as a part of the length, a corner of the profile is that of the end."""
 
 # --------------------------------------------------------------------------------------
 # Particulars against one another and against the extents.

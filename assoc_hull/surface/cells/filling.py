@@ -7,6 +7,8 @@ Source: S. A. Coons, Surfaces for computer-aided design of space forms, MIT, MAC
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import attrs
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +37,9 @@ _STEEP = 0.3
 _LEVEL = 1e-7
 """Of the size of a cell: points so near to a plane lie in it, and so small heights are none."""
 
+_MISSED = 0.07
+"""Of the size of a cell: a cubic that misses its edges by more says nothing of the cell."""
+
 _TOUCH, _ALONG = 1e-5, 0.999
 """Corners within this part of the length of the hull of a flat touch it, where the normal has at
 least this cosine with that of the flat."""
@@ -54,14 +59,17 @@ class LocalFrames:
         Rows: two across the mean normal, and that normal, by the size of the cell.
     height : (c, 10)
         The cubic polynomial of the height; zero where the cell is bent too much.
+    bent : (c,) bool
+        Cells of four lines that are bent so much that a polynomial misses these.
     """
 
     origin: FloatArray
     axes: FloatArray
     height: FloatArray
+    bent: NDArray[np.bool_]
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.origin, self.axes, self.height)
+        freeze(self.origin, self.axes, self.height, self.bent)
 
     def flattened(self, place: FloatArray) -> FloatArray:
         """Give two places across and what is left of the height, (c, k, 3), of points (c, k, 3)."""
@@ -79,11 +87,14 @@ class LocalFrames:
         return np.asarray(found)
 
 
-def local_frames(rim: FloatArray, corner: FloatArray, normal: FloatArray) -> LocalFrames:
+def local_frames(
+    rim: FloatArray, corner: FloatArray, normal: FloatArray, four: NDArray[np.bool_] | bool = False
+) -> LocalFrames:
     """Lay a frame over each of some cells with equally many corners.
 
     Heights are fitted to points `rim` (c, r, 3), m, on the edges and to the slopes that unit
-    normals (c, k, 3) of the hull have at the corners (c, k, 3), m.
+    normals (c, k, 3) of the hull have at the corners (c, k, 3), m. Cells of `four` lines (c,) can
+    do without.
     """
     mean = normal.sum(axis=1)
     size = np.sqrt(dot(mean, mean))
@@ -103,11 +114,17 @@ def local_frames(rim: FloatArray, corner: FloatArray, normal: FloatArray) -> Loc
     height[good] = _fitted(
         _seen(origin, axes, rim)[good], _seen(origin, axes, corner)[good], tilted[good]
     )
+    # A cell from keel to deck between two stations is large and round: a cubic off its own edges
+    # would bulge out of the hull between them.
+    seen = _seen(origin, axes, rim)
+    missed = np.abs(seen[..., 2] - _value(height, seen[..., :2])).max(axis=1) > _MISSED
+    missed &= four
+    height[missed] = 0.0
     # A cell of a flat is flat, though the hull may leave its border at an angle, and the normal
     # there be that of both.
     bent = (np.abs(height[:, 1:]).max(axis=1) > _LEVEL) & good
     height[np.flatnonzero(bent)[_in_one_plane(away[bent], reach[bent])]] = 0.0
-    return LocalFrames(origin, axes, height)
+    return LocalFrames(origin, axes, height, missed)
 
 
 def _in_one_plane(away: FloatArray, reach: FloatArray) -> NDArray[np.bool_]:
@@ -282,7 +299,57 @@ def _filled(
         point, quads = _four_sided(rim, flat, used)
     else:
         point, quads = _many_sided(rim, flat, used)
-    return _inside(frames.restored(point), *_bounds(start, half, rim)).reshape(-1, 3), quads
+    place = frames.restored(point)
+    if sides > 4:
+        turns = _turns(start, half)
+        for cell in np.flatnonzero(frames.bent & (turns.sum(axis=1) == 4)).tolist():
+            place[cell] = _as_four_sided(start.xyz[rim[cell]], np.flatnonzero(turns[cell]))
+    return _inside(place, *_bounds(start, half, rim)).reshape(-1, 3), quads
+
+
+def _turns(start: FilledCells, half: IntArray) -> NDArray[np.bool_]:
+    """Tell at which corners of cells the border goes on along another line, (c, k)."""
+    curve = start.cells.graph.curve[half >> 1]
+    return np.asarray(curve != np.roll(curve, 1, axis=1))
+
+
+def _as_four_sided(rim: FloatArray, corner: IntArray) -> FloatArray:
+    """Give inner points of a cell of four lines, on some of which others end, (p, 3), m.
+
+    Of the Coons patch between the four lines, by arcs along each; `rim` is (k, steps + 1, 3).
+    """
+    turn = int(corner[0])
+    rim, begin = np.roll(rim, -turn, axis=0), [*(corner - turn).tolist(), len(rim)]
+    square = np.empty((*rim.shape[:2], 2))
+    sides = []
+    for i, (first, last) in enumerate(pairwise(begin)):
+        line = np.concatenate([rim[first, :1], rim[first:last, 1:].reshape(-1, 3)])
+        step = np.diff(line, axis=0)
+        arc = np.concatenate([[0.0], np.cumsum(np.sqrt(dot(step, step)))])
+        arc /= max(float(arc[-1]), 1e-300)
+        part = np.stack([arc[each * (rim.shape[1] - 1) :][: rim.shape[1]]
+                         for each in range(last - first)])  # fmt: skip
+        square[first:last] = _CORNERS[i] + part[..., None] * (_CORNERS[(i + 1) % 4] - _CORNERS[i])
+        sides.append((arc, line))
+    number = np.zeros(rim.shape[:2], np.int64)
+    uv = np.roll(square, turn, axis=0)
+    u, v = _many_sided(number[None], uv[None], 0)[0][0].T
+    across = (1.0 - v)[:, None] * _along(sides[0], u) + v[:, None] * _along(sides[2], 1.0 - u)
+    along = (1.0 - u)[:, None] * _along(sides[3], 1.0 - v) + u[:, None] * _along(sides[1], v)
+    a, b, c, d = (line[0] for _, line in sides)
+    low = (1.0 - u)[:, None] * a + u[:, None] * b
+    high = (1.0 - u)[:, None] * d + u[:, None] * c
+    return np.asarray(across + along - (1.0 - v)[:, None] * low - v[:, None] * high)
+
+
+_CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+"""Of the square that a cell of four lines is laid on."""
+
+
+def _along(side: tuple[FloatArray, FloatArray], part: FloatArray) -> FloatArray:
+    """Give places on a line by arcs from its begin, parts of its length, (p, 3), m."""
+    arc, line = side
+    return np.stack([np.interp(part, arc, line[:, k]) for k in range(3)], axis=1)
 
 
 def _bounds(start: FilledCells, half: IntArray, rim: IntArray) -> tuple[FloatArray, FloatArray]:
@@ -322,7 +389,8 @@ def _frames(start: FilledCells, half: IntArray, rim: IntArray) -> LocalFrames:
     graph = start.cells.graph
     node = half_edge_origins(graph)[half]
     round_it = start.xyz[rim[:, :, :-1].reshape(len(rim), -1)]
-    return local_frames(round_it, graph.place[node], graph.normal[node])
+    four = _turns(start, half).sum(axis=1) <= 4
+    return local_frames(round_it, graph.place[node], graph.normal[node], four)
 
 
 def _four_sided(rim: IntArray, flat: FloatArray, used: int) -> tuple[FloatArray, IntArray]:
@@ -349,7 +417,7 @@ def _many_sided(rim: IntArray, flat: FloatArray, used: int) -> tuple[FloatArray,
         for i in range(sides)
     ]
     # Inner points: the centre, then those on spokes, then those of the patches.
-    inner = [each.reshape(count, -1, 3) for each in (spoke[:, :, 1:-1], *patch)]
+    inner = [each.reshape(count, -1, flat.shape[-1]) for each in (spoke[:, :, 1:-1], *patch)]
     point = np.concatenate([centre[:, None], *inner], axis=1)
     number = used + np.arange(count * point.shape[1]).reshape(count, -1)
     spokes = number[:, 1 : 1 + sides * (part - 1)].reshape(count, sides, part - 1)

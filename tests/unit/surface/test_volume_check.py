@@ -13,6 +13,7 @@ from assoc_hull.io.mesh.closed_mesh import write_mesh
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh, examine_mesh
 from assoc_hull.surface.volume_check import displaced_of, extent_faults, mesh_faults
 from tests.cases.test_box_with_bilges import round_box
+from tests.drawn_hulls import half_chined
 
 
 @pytest.fixture(scope="module")
@@ -81,3 +82,13 @@ def test_a_round_bilge_without_waterlines_is_cut_finely(tmp_path: Path) -> None:
     report = round_box().export(tmp_path / "box.stl")
     _, mine, theirs = report.displaced
     assert mine == pytest.approx(theirs, rel=4e-3)
+
+
+def test_cells_between_a_round_and_a_chined_frame_are_filled_as_drawn(tmp_path: Path) -> None:
+    """A chine that ends on a frame leaves a cell of four lines, not one of five cut across."""
+    hull = half_chined(tmp_path)
+    mesh = hull.mesh(points=16)
+    for each in displaced_of(hull.state):
+        assert mesh.below(each.level).volume == pytest.approx(each.volume, rel=5e-3)
+    assert mesh.xyz[:, 0].min() >= -1e-9
+    assert mesh.xyz[:, 0].max() <= 60.0 + 1e-9
