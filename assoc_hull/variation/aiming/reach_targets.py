@@ -6,7 +6,8 @@ are small, mostly: the hull is nudged by the map that makes up for them, in whic
 goes, so that what is measured is smooth. Where that will not do, what the maps are to give, the
 aims, is corrected, and the whole plan is carried out anew from the parent: lines that are cut anew
 on top of a carried hull would come with an error of lofting of their own each time. Targets of
-outputs are reached on the hull that the plan gives, in each round.
+outputs are reached on the hull that the plan gives, in each round; a nudge holds them, by what is
+free for it.
 """
 
 from __future__ import annotations
