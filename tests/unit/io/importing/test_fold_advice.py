@@ -1,6 +1,5 @@
 """What an import says of a line that folds: an option that helps, as nothing was edited."""
 
-import attrs
 import pytest
 
 import assoc_hull as ah
@@ -10,12 +9,12 @@ from assoc_hull.io.importing.verdict import Findings
 
 
 @pytest.mark.parametrize(
-    ("factor", "sized", "scale"), [(1.0, False, False), (0.06, False, True), (0.06, True, False)]
+    ("length", "sized", "scale"), [(100.0, False, False), (6.0, False, True), (6.0, True, False)]
 )
 def test_a_fold_is_told_with_what_an_import_can_do(
-    factor: float, sized: bool, scale: bool, monkeypatch: pytest.MonkeyPatch
+    length: float, sized: bool, scale: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Undo is no remedy of an import; of a hull under 100 m the scale of a model is asked for.
+    """Undo is no remedy of an import; of a hull as short as models are their scale is asked for.
 
     Not where her length is known.
     """
@@ -23,8 +22,7 @@ def test_a_fold_is_told_with_what_an_import_can_do(
         "fold", "BTK 1", (1.0, 2.0, 3.0), -0.3, "folds back (cosine -0.3): move the points, or undo"
     )
     monkeypatch.setattr(soundness, "check", lambda _: (fold,))
-    state = ah.examples.wigley().state
-    state = attrs.evolve(state, tolerances=state.tolerances.scaled(factor))
+    state = ah.examples.wigley(length=length, breadth=0.1 * length, draught=0.0625 * length).state
     found = Findings()
     soundness._examine_checks(state, found, sized=sized)
     (told,) = found.faults
