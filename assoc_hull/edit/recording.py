@@ -17,7 +17,7 @@ import contextlib
 import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import wraps
-from typing import Any, Concatenate, ParamSpec, Protocol, Self, TypeVar
+from typing import Concatenate, ParamSpec, Protocol, Self, TypeVar
 
 import attrs
 import numpy as np
@@ -154,12 +154,12 @@ class Script:
     gaps: str = "refuse"
     varied: VariedValues = attrs.field(factory=VariedValues)
     before: VariedValues = attrs.field(factory=VariedValues)
-    variation: dict[str, Any] | None = None
+    variation: dict[str, object] | None = None
 
     @classmethod
     def of(
         cls, edits: Sequence[dict[str, Said]], settings: Settings, varied: VariedValues,
-        before: VariedValues, variation: Mapping[str, Any] | None = None,
+        before: VariedValues, variation: Mapping[str, object] | None = None,
     ) -> Self:  # fmt: skip
         """Put a script together."""
         gaps = "refuse" if settings.refuse_gaps else "report"

@@ -10,7 +10,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
-from typing import Any, Literal
+from typing import Literal
 
 import attrs
 
@@ -104,7 +104,7 @@ def operations() -> Mapping[str, inspect.Signature]:
 # --------------------------------------------------------------------------------------
 # Replay.
 
-Vary = Callable[[Mapping[str, Any]], EditReport]
+Vary = Callable[[Mapping[str, object]], EditReport]
 """Varies the hull in place by a script of `Hull.vary_by`."""
 
 

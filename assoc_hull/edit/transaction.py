@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from types import TracebackType
-from typing import Any, Self
+from typing import Self
 
 import attrs
 import numpy as np
@@ -100,7 +100,7 @@ class Transaction:
         self._extents: list[Extent] = []
         self._dirty: tuple[tuple[int, int, int], DirtyNodes] | None = None
         self.varied = self.varied_before = VariedValues()
-        self.variation: Mapping[str, Any] | None = None  # as a script has it
+        self.variation: Mapping[str, object] | None = None  # as a script has it
         self._told: EditReport | None = None
         self._step: Step | None = None
         self._depth = 0

@@ -49,7 +49,7 @@ __all__ = [
 
 _WAVE = 2e-3
 """m: height of one wave along a line that nobody sees, as far as a driver may leave its image by
-default."""
+default; of a hull under 100 m in proportion less."""
 
 _VIEWS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
 """A curve in space is seen from the side and from above; what both show is added."""
@@ -75,6 +75,8 @@ class LineFairness:
         Of all its curves.
     border : bool
         Whether it is a boundary curve: an end of the hull, the border of a flat, a knuckle line.
+    wave : float, m
+        Height of one wave along it that nobody sees.
     """
 
     key: str
@@ -85,6 +87,7 @@ class LineFairness:
     greatest: float
     length: float
     border: bool = False
+    wave: float = _WAVE
 
     @property
     def is_straight(self) -> bool:
@@ -93,10 +96,10 @@ class LineFairness:
 
     @property
     def least_comb(self) -> float:
-        """Comb integral, 1/m3, below which nobody sees any: that of a wave within the tolerance."""
+        """Comb integral, 1/m3, below which nobody sees any: that of one wave."""
         if not self.length:
             return 0.0
-        return 0.5 * _WAVE**2 * (2.0 * math.pi / self.length) ** 6 * self.length
+        return 0.5 * self.wave**2 * (2.0 * math.pi / self.length) ** 6 * self.length
 
 
 @attrs.frozen(eq=False)
@@ -371,7 +374,7 @@ def measure_fairness(
     return {
         str(table.key[line]): LineFairness(
             str(table.key[line]), str(table.name[line]), views[line], *each, length,
-            bool(table.boundary[line] >= 0),
+            bool(table.boundary[line] >= 0), _WAVE * state.tolerances.factor,
         )
         for line, each, length in zip(wanted, found, lengths.tolist(), strict=True)
     }  # fmt: skip
