@@ -16,23 +16,17 @@ from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target
 from assoc_hull.errors import BadInputError, NotSoundError
 from assoc_hull.hull.sources import open as open_hull
-from assoc_hull.io.reports import ExportReport
 from assoc_hull.io.write_file import form_by_ending
 
 if TYPE_CHECKING:
-    from assoc_hull.io.cad.write import CadReport
-    from assoc_hull.io.mesh.closed_mesh import MeshFile
+    pass
 
 __all__ = [
     "add_export",
     "arc_words",
-    "cad_words",
     "check_arcs",
     "check_form",
     "export_arcs",
-    "export_words",
-    "file_words",
-    "mesh_words",
     "tell_faults",
 ]
 
@@ -177,66 +171,6 @@ def arc_words(arcs: ArcLines) -> str:
 # What `export` does and says of surfaces and meshes.
 
 
-def file_words(report: CadReport | MeshFile) -> str:
-    """Say what was written of a surface."""
-    from assoc_hull.io.mesh.closed_mesh import MeshFile
-
-    return mesh_words(report) if isinstance(report, MeshFile) else cad_words(report)
-
-
-def mesh_words(report: MeshFile) -> str:
-    """Say what was written of a mesh.
-
-    Examples
-    --------
-    >>> from assoc_hull.cli.export import mesh_words
-    >>> from assoc_hull.io.mesh.closed_mesh import MeshFile
-    >>> groups = ("shell", "deck")
-    >>> print(mesh_words(MeshFile("a.stl", "stl", "m", False, 9, 14, 0, groups, 8.0, 784)))
-    9 vertices, 14 triangles: shell, deck
-    closed, 8.000 m3
-    written: a.stl (stl, m)
-    """
-    rows = [
-        f"{report.vertices} vertices, {report.triangles} triangles: {', '.join(report.groups)}",
-        "the port half, open in the centre plane"
-        if report.volume is None
-        else f"closed, {report.volume:.3f} m3",
-    ]
-    if report.bodies:
-        rows.append(f"beside the hull, closed surfaces of their own: {', '.join(report.bodies)}")
-    if report.chord is not None:
-        rows.append(f"lines leave the edges of triangles by up to {1e3 * report.chord:.1f} mm")
-    if report.displaced is not None:
-        level, mine, theirs = report.displaced
-        rows.append(
-            f"below {level:.2f} m {mine:.3f} m3, by hydrostatics {theirs:.3f} m3 "
-            f"({100.0 * (mine / theirs - 1.0):+.2f} %)"
-        )
-    rows += [f"accepted: {each}" for each in report.faults]
-    if report.left_out:
-        rows.append(f"{report.left_out} triangles have no area in the numbers of the file")
-    return "\n".join([*rows, f"written: {report.path} ({report.form}, {report.unit})"])
-
-
-def cad_words(report: CadReport) -> str:
-    """Say what was written for CAD programs."""
-    side = "the port half" if report.half else "both sides"
-    rows = [f"{report.faces} faces, {side}, {report.area:.3f} m2"]
-    if report.shells:
-        shells = "1 shell" if report.shells == 1 else f"{report.shells} shells"
-        rows.append(f"{shells}, {report.joined_edges} joined edges, {report.free_edges} free")
-    if report.volume is not None:
-        rows.append(f"beside it the solid, closed by deck and transom: {report.volume:.3f} m3")
-    if report.residual is not None:
-        at = f", {report.residual_place}" if report.residual_place else ""
-        rows.append(f"lines lie up to {1e3 * report.residual:.1f} mm off it{at}")
-    rows += [f"accepted: {each}" for each in report.faults]
-    rows += report.left_out
-    rows.append(f"read back: control points within {1e3 * report.control_point_error:.1e} mm")
-    return "\n".join([*rows, f"written: {report.path} ({report.form}, {report.unit})"])
-
-
 def tell_faults(arguments: argparse.Namespace, error: NotSoundError) -> None:
     """Tell every fault of a surface that is not written, before the one line of the error."""
     faults = "\n".join(error.findings)
@@ -367,23 +301,5 @@ def _export(arguments: argparse.Namespace) -> int:
     except NotSoundError as error:
         tell_faults(arguments, error)
         raise
-    words = export_words if isinstance(report, ExportReport) else file_words
-    emit(arguments, {"export": report}, words(report))
+    emit(arguments, {"export": report}, str(report))
     return 0
-
-
-def export_words(report: ExportReport) -> str:
-    """Say what was written, how it was rounded, and what is not in the file."""
-    rows = [f"{report.lines} lines in {report.curves} curves, {report.points} points"]
-    if report.rounding:
-        rows.append(
-            f"rounded by {1e3 * report.largest:.4f} mm at most (half a digit is "
-            f"{1e3 * report.rounding:.4f} mm)"
-        )
-    if report.chord:
-        rows.append(
-            f"straight lines between points leave the curves by {1e3 * report.chord:.2f} mm"
-        )
-    for title, notes in (("left out", report.left_out), ("otherwise", report.mended)):
-        rows += [f"{title} ({len(notes)})", *(f"  {note}" for note in notes)] if notes else []
-    return "\n".join([*rows, f"written: {report.path} ({report.form})"])

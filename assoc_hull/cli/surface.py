@@ -62,7 +62,7 @@ def _surface(arguments: argparse.Namespace) -> int:
     words, saved = [str(found)], []
     document = found.document()
     if arguments.out is not None:
-        from assoc_hull.cli.export import file_words, tell_faults
+        from assoc_hull.cli.export import tell_faults
 
         try:
             with progress(f"writing {arguments.out}"):
@@ -73,7 +73,7 @@ def _surface(arguments: argparse.Namespace) -> int:
             tell_faults(arguments, error)
             raise
         saved.append(str(arguments.out))
-        words += ["", file_words(report)]
+        words += ["", str(report)]
     if arguments.picture is not None:
         from assoc_hull.plot.plates.lit_surface import surface_figure
 

@@ -167,6 +167,26 @@ class ExportReport:
     left_out: tuple[Note, ...]
     mended: tuple[Note, ...]
 
+    @property
+    def words(self) -> str:
+        """What was written, how it was rounded, and what is not in the file."""
+        rows = [f"{self.lines} lines in {self.curves} curves, {self.points} points"]
+        if self.rounding:
+            rows.append(
+                f"rounded by {1e3 * self.largest:.4f} mm at most (half a digit is "
+                f"{1e3 * self.rounding:.4f} mm)"
+            )
+        if self.chord:
+            rows.append(
+                f"straight lines between points leave the curves by {1e3 * self.chord:.2f} mm"
+            )
+        for title, notes in (("left out", self.left_out), ("otherwise", self.mended)):
+            rows += [f"{title} ({len(notes)})", *(f"  {note}" for note in notes)] if notes else []
+        return "\n".join(rows)
+
+    def __str__(self) -> str:
+        return f"{self.words}\nwritten: {self.path} ({self.form})"
+
 
 @attrs.define
 class ExportBook:

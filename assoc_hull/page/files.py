@@ -57,7 +57,7 @@ def write_export(hull: Hull, form: str) -> dict[str, Any]:
                 notes = []
             else:
                 report = hull.export(path)
-                notes = [str(report)[:2000]]
+                notes = [report.words[:2000]]
             data = path.read_bytes()
         except (OSError, BadInputError) as error:
             # Where it is written is no choice of who asks: the remedy of the library is none here.

@@ -442,6 +442,27 @@ class CadReport:
     left_out: tuple[str, ...] = ()
     faults: tuple[str, ...] = ()
 
+    @property
+    def words(self) -> str:
+        """What was written for CAD programs, without where."""
+        side = "the port half" if self.half else "both sides"
+        rows = [f"{self.faces} faces, {side}, {self.area:.3f} m2"]
+        if self.shells:
+            shells = "1 shell" if self.shells == 1 else f"{self.shells} shells"
+            rows.append(f"{shells}, {self.joined_edges} joined edges, {self.free_edges} free")
+        if self.volume is not None:
+            rows.append(f"beside it the solid, closed by deck and transom: {self.volume:.3f} m3")
+        if self.residual is not None:
+            at = f", {self.residual_place}" if self.residual_place else ""
+            rows.append(f"lines lie up to {1e3 * self.residual:.1f} mm off it{at}")
+        rows += [f"accepted: {each}" for each in self.faults]
+        rows += self.left_out
+        rows.append(f"read back: control points within {1e3 * self.control_point_error:.1e} mm")
+        return "\n".join(rows)
+
+    def __str__(self) -> str:
+        return f"{self.words}\nwritten: {self.path} ({self.form}, {self.unit})"
+
 
 def write_cad(
     surfaces: Sequence[SplineSurface],

@@ -307,6 +307,43 @@ class MeshFile:
     displaced: tuple[float, float, float] | None = None
     faults: tuple[str, ...] = ()
 
+    @property
+    def words(self) -> str:
+        """What was written, without where.
+
+        Examples
+        --------
+        >>> from assoc_hull.io.mesh.closed_mesh import MeshFile
+        >>> groups = ("shell", "deck")
+        >>> print(MeshFile("a.stl", "stl", "m", False, 9, 14, 0, groups, 8.0, 784))
+        9 vertices, 14 triangles: shell, deck
+        closed, 8.000 m3
+        written: a.stl (stl, m)
+        """
+        rows = [
+            f"{self.vertices} vertices, {self.triangles} triangles: {', '.join(self.groups)}",
+            "the port half, open in the centre plane"
+            if self.volume is None
+            else f"closed, {self.volume:.3f} m3",
+        ]
+        if self.bodies:
+            rows.append(f"beside the hull, closed surfaces of their own: {', '.join(self.bodies)}")
+        if self.chord is not None:
+            rows.append(f"lines leave the edges of triangles by up to {1e3 * self.chord:.1f} mm")
+        if self.displaced is not None:
+            level, mine, theirs = self.displaced
+            rows.append(
+                f"below {level:.2f} m {mine:.3f} m3, by hydrostatics {theirs:.3f} m3 "
+                f"({100.0 * (mine / theirs - 1.0):+.2f} %)"
+            )
+        rows += [f"accepted: {each}" for each in self.faults]
+        if self.left_out:
+            rows.append(f"{self.left_out} triangles have no area in the numbers of the file")
+        return "\n".join(rows)
+
+    def __str__(self) -> str:
+        return f"{self.words}\nwritten: {self.path} ({self.form}, {self.unit})"
+
 
 def mesh_form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
     """Tell in which form a mesh is to be written: the one asked for, else by the ending.

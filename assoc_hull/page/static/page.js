@@ -355,6 +355,7 @@ export class Page {
       this.dropGhost();
       return this.say("The ghost is gone; nothing was made. Undo takes back the last edit.");
     }
+    this.store.refusal = this.store.problem = null;
     this.turning = this.request({t: way});
   }
 
@@ -375,7 +376,9 @@ export class Page {
 
   cancel() {
     for (const each of Object.values(this.pointers)) each.cancel();
-    if (this.store.held) this.hand.cancel();
+    if (!this.store.held) return;
+    this.hand.cancel();
+    this.store.refusal = null; // with what was refused
   }
 
   /** The window loses the focus, or the connection breaks: what is in hand is let go. */

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import assoc_hull as ah
-from assoc_hull.cli.export import cad_words
 from assoc_hull.io.cad.write import CadReport
 
 
@@ -22,7 +21,7 @@ def test_a_report_names_the_worst_place_and_what_is_not_in_the_file(tmp_path: Pa
     assert report.left_out == (
         "not in the surface: body hatch 1", "not in the surface: tunnel bow thruster",
     )  # fmt: skip
-    words = cad_words(report).splitlines()
+    words = str(report).splitlines()
     assert (
         f"lines lie up to {1e3 * report.residual:.1f} mm off it, {report.residual_place}" in words
     )
