@@ -45,8 +45,10 @@ def _page(arguments: argparse.Namespace) -> int:
         path = server.hull.path
         kept = "every edit is kept in it" if path else "edits stay in memory, and go with the page"
         facts = {"address": server.address, "hull": str(arguments.hull), "kept": path is not None}
+        # A full collection beside a drag looks at what came since. Ctrl+C within a finalizer would
+        # be lost: nobody ends what has not told its address.
+        freeze_loaded_objects()
         emit(arguments, facts, f"{server.address}\n{arguments.hull}: {kept}")
-        freeze_loaded_objects()  # a full collection beside a drag looks at what came since
         sys.stdout.flush()  # whoever reads it through a pipe is waiting for the address
         if not arguments.no_browser:
             webbrowser.open(server.address)
