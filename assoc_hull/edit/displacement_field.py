@@ -514,13 +514,14 @@ def land_points(state: HullState, journal: Journal, fields: list[NormalField]) -
 
 def sub_step_count(state: HullState, shift: PointDisplacements) -> int:
     """Give the number of steps of a field: halved while one exceeds `Tolerances.substep`."""
-    largest = float(np.sqrt((shift.delta * shift.delta).sum(axis=1)).max(initial=0.0))
-    steps = 1
+    far = np.sqrt((shift.delta * shift.delta).sum(axis=1))
+    largest, steps = float(far.max(initial=0.0)), 1
     while largest / steps > state.tolerances.substep:
         steps *= 2
     if steps > _STEPS:
         raise BadInputError(
-            f"a field that moves a point by {largest:.4g} m",
+            f"{address(state, int(shift.rows[far.argmax()]))} would move by {largest:.4g} m, "
+            "farther than all others",
             "in an edit",
             f"move by less than {_STEPS * state.tolerances.substep:g} m at a time; lengths "
             "are in m, 50 mm is 0.05",

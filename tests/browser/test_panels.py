@@ -172,6 +172,30 @@ def test_a_hull_that_is_sound_is_said_to_be(open_page: Open, hull: ah.Hull) -> N
     assert box.locator("button.link").count() == 0
 
 
+def test_the_bubble_of_a_refusal_goes_with_undo(open_page: Open, hull: ah.Hull) -> None:
+    """What was refused is past then; nothing of it lies over the drawing."""
+    hand = open_page(hull)
+    pull(hand, 0.02)
+    hand.ask("(p, name) => p.find(name)", POINT)
+    hand.ask("(p, name) => p.apply('far', [{op: 'move', point: name, y: 400}])", POINT)
+    hand.page.wait_for_selector(".bubble")
+    hand.ask("p => p.undo()")
+    hand.until("p => p.store.history.edits === 0")
+    assert hand.page.locator(".bubble").count() == 0
+
+
+def test_an_export_is_told_in_sentences(open_page: Open, hull: ah.Hull) -> None:
+    """As the command tells it: nothing of objects, nor where the server had the file."""
+    hand = open_page(hull)
+    box = opened(hand, "Export")
+    with hand.page.expect_download():
+        hand.ask("p => p.panel.files.write('csv')")
+    box.get_by_text("lines in").wait_for()
+    words = box.inner_text()
+    assert "Report(" not in words
+    assert "/tmp" not in words
+
+
 def test_what_was_refused_last_stands_among_the_problems(open_page: Open, hull: ah.Hull) -> None:
     """Also when its bubble has gone; it is counted, a click goes there, an edit ends it."""
     hand = open_page(hull)

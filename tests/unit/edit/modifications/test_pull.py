@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.report import EditReport
+from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray
 from tests.independent import trouble
 from tests.net_strategies import POOL, fresh, live_points, refused
@@ -162,3 +163,15 @@ def test_a_line_moved_as_far_as_its_points_also_in_several_sub_steps(
     assert found.moved is not None
     far = [cause.moved for cause in found.causes if cause.moved is not None]
     assert found.moved == pytest.approx(max(far), rel=1e-12)
+
+
+def test_a_pull_too_far_names_the_point_that_would_move_most() -> None:
+    """Not the one in hand, mostly: one that lies nearly along the hull slides much farther."""
+    hull = ah.examples.wigley()
+    with (
+        pytest.raises(
+            RefusedEditError, match=r"\S+ \S+ x \S+ \S+.* would move by [0-9.]+ m, farther"
+        ),
+        hull.edit("far") as edit,
+    ):
+        edit.pull("WL 5 x ST 12", 20.0, radius=(15.0, 5.0))
