@@ -320,6 +320,8 @@ class _Held:
         outputs = Outputs.of(found.carry.edit.state, tuple(reach.targets))
         targets = np.array(list(reach.targets.values()))
         free = tuple(name for name in aimed.free if name not in aimed.active)
+        if not free:
+            return None
         return cls(outputs, targets, _sizes(before, targets) * (_RESIDUAL / _STRAY), free)
 
     def misses(self, state: HullState, like: HullState | None) -> dict[str, float]:
@@ -417,6 +419,8 @@ def _nudge_for(
         No small change of these does it.
     """
     bare, free = attrs.evolve(ask, values={}, layers=()), () if held is None else held.free
+    if any(name not in room.present for name in free):
+        raise BadInputError("what is free has no value now", "in vary", "carry the hull in full")
     names, more = tuple[str, ...](), _astray(missed)
     while True:
         names = (*names, *more)
