@@ -11,7 +11,7 @@ from typing import Any
 import attrs
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
 import assoc_hull as ah
 from assoc_hull.page import PageServer
@@ -22,6 +22,8 @@ collect_ignore = [] if AXE.is_file() else ["test_accessibility.py"]
 collect_ignore += [] if shutil.which("node") else ["test_modules.py"]
 
 READY = ".page[data-ready=yes]"
+# What is looked for is waited for as long as an action is: machines that test are slow ones.
+expect.set_options(timeout=30_000)
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 
 

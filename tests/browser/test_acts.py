@@ -1,6 +1,7 @@
 """What a designer does with mouse alone, or with keys alone: nothing needs the other hand."""
 
 import pytest
+from playwright.sync_api import expect
 
 import assoc_hull as ah
 from tests.browser.conftest import Hand, Open
@@ -42,7 +43,9 @@ def test_keys_alone_pull_make_a_knuckle_and_take_it_away(open_page: Open, hull: 
     hand.until("p => p.store.history.edits === 2")
     # A new kind moves nothing that a frame would tell: the page is told all of the hull.
     hand.until("p => p.store.net.points.get(p.store.selection.row).kind.includes(2)")
-    assert "knuckle on ST 16" in opened(hand, "Why").page.locator("aside").inner_text()
+    expect(opened(hand, "Why").page.locator("aside")).to_contain_text(
+        "knuckle on ST 16", use_inner_text=True
+    )
     hand.page.get_by_label("Body plan: drawing").focus()
     keys(hand, "Shift+N")
     hand.page.locator("aside").get_by_text("Enter applies").wait_for()
@@ -141,7 +144,8 @@ def test_what_is_said_is_not_wiped_away_by_the_next_frame(open_page: Open, hull:
     hand.page.get_by_label("pull outward, mm").press("Enter")
     hand.ask("p => p.store.changed('panel')")
     hand.settled()
-    assert '"far" is no pull' in hand.page.locator(".page > footer").inner_text()
+    foot = hand.page.locator(".page > footer")
+    expect(foot).to_contain_text('"far" is no pull', use_inner_text=True)
 
 
 def test_showing_what_is_chosen_twice_is_showing_it_once(open_page: Open, hull: ah.Hull) -> None:
@@ -174,7 +178,9 @@ def test_a_letter_in_the_panel_says_where_letters_act(open_page: Open, hull: ah.
     hand.ask("(p, name) => p.goTo(name, null)", POINT)
     opened(hand, "History").locator("summary").focus()
     keys(hand, "n")
-    assert "Esc leads there" in hand.page.locator(".page > footer").inner_text()
+    expect(hand.page.locator(".page > footer")).to_contain_text(
+        "Esc leads there", use_inner_text=True
+    )
     keys(hand, "Escape")
     assert hand.ask("p => document.activeElement === p.activeView().upper && !!p.store.marked")
 

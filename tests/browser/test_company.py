@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import expect
 
 import assoc_hull as ah
 from assoc_hull.page import PageServer
@@ -43,8 +44,9 @@ def test_what_another_process_commits_is_shown_unasked(
     hand.until("p => p.store.history.edits === 1")
     hand.settled()
     assert hand.shows_what_is_published()
-    told = hand.page.locator("details:has(h2:text-is('Edit'))").inner_text().split()
-    assert {"elsewhere", "bert"} <= set(told)
+    told = hand.page.locator("details:has(h2:text-is('Edit'))")
+    for word in ("elsewhere", "bert"):
+        expect(told).to_contain_text(word, use_inner_text=True)
     hand.near(POINT)
     hand.pull(POINT, 4.0)
     hand.until("p => p.store.history.edits === 2")
@@ -105,4 +107,4 @@ def test_an_address_of_a_server_that_ended_lets_nobody_in(open_page: Open, hull:
     hand.server.__exit__(None, None, None)
     with PageServer(hull, port=port):
         hand.page.wait_for_selector("[data-connection=over]")
-    assert "open the new one" in hand.page.locator(".banner").inner_text()
+    expect(hand.page.locator(".banner")).to_contain_text("open the new one", use_inner_text=True)

@@ -102,8 +102,8 @@ def test_a_click_chooses_and_edits_nothing(open_page: Open, hull: ah.Hull) -> No
     hand.settled()
     assert hull.history == ()
     panel = hand.page.locator("aside")
-    assert POINT in panel.inner_text()
-    assert "shared" in panel.inner_text()
+    expect(panel).to_contain_text(POINT, use_inner_text=True)
+    expect(panel).to_contain_text("shared", use_inner_text=True)
 
 
 def test_a_refusal_stands_at_its_place(open_page: Open, hull: ah.Hull) -> None:
@@ -181,7 +181,7 @@ def test_a_point_on_a_flat_refuses_a_pull_with_its_address(open_page: Open, hull
     x, y = hand.press(name)
     hand.page.mouse.move(x + 12.0, y + 12.0)
     hand.page.wait_for_selector(".bubble")
-    assert "on a flat" in hand.page.locator(".bubble").inner_text()
+    expect(hand.page.locator(".bubble")).to_contain_text("on a flat", use_inner_text=True)
     assert ":" not in hand.page.locator(".bubble").inner_text().partition(" is ")[0]
     hand.release()
     assert hull.fingerprint == before
@@ -305,7 +305,7 @@ def test_what_is_typed_is_one_step_and_nonsense_is_none(open_page: Open, hull: a
     assert hand.shows_what_is_published()
     field.fill("wide")
     field.press("Enter")
-    assert "y is no number" in hand.page.locator("footer").inner_text()
+    expect(hand.page.locator("footer")).to_contain_text("y is no number", use_inner_text=True)
     field.fill("600")
     field.press("Enter")
     hand.page.wait_for_selector(".bubble")
@@ -341,9 +341,9 @@ def test_nothing_that_moves_lies_over_a_name(open_page: Open, hull: ah.Hull) -> 
     hand.settled()
     assert hand.ask("p => p.store.overlay.frame.curves.size") > 20
     assert hand.ask(COVERED, "profile") == []
-    foot = hand.page.locator(".page > footer").inner_text()
+    foot = hand.page.locator(".page > footer")
     pixel = hand.ask("p => 100 / p.views.body.axis.s")
-    assert f"1 px is {pixel:.1f} mm" in foot, "of the hand as it is, with Alt"
+    expect(foot, "of the hand as it is, with Alt").to_contain_text(f"1 px is {pixel:.1f} mm")
     hand.page.keyboard.up("Alt")
     hand.page.keyboard.press("Escape")
     hand.page.mouse.up()
@@ -353,7 +353,7 @@ def test_nothing_that_moves_lies_over_a_name(open_page: Open, hull: ah.Hull) -> 
     hand.page.mouse.move(x, y - 3.0)
     hand.settled()
     pixel = hand.ask("p => 1000 / (5 * p.views.half.axis.s)")
-    assert f"1 px is {pixel:.0f} mm" in hand.page.locator(".page > footer").inner_text()
+    expect(foot).to_contain_text(f"1 px is {pixel:.0f} mm")
     hand.page.keyboard.press("Escape")
     hand.page.mouse.up()
 
@@ -366,9 +366,9 @@ def test_a_refused_pull_tells_no_figures_and_hides_not_how_far_it_is(
     x, y = hand.press(POINT)
     hand.page.mouse.move(x + 90.0, y)
     hand.page.wait_for_selector(".view-body .bubble")
-    edit = hand.page.locator("details:has(h2:text-is('Edit'))").inner_text()
-    assert "refused" in edit
-    assert "m³" not in edit
+    edit = hand.page.locator("details:has(h2:text-is('Edit'))")
+    expect(edit).to_contain_text("refused", use_inner_text=True)
+    expect(edit).not_to_contain_text("m³", use_inner_text=True)
     box = hand.page.locator(".bubble").bounding_box()
     assert box is not None
     at = hand.ask("p => p.views.body.atPlace(p.store.held.place)[1]")

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 import assoc_hull as ah
 from tests.browser.conftest import Hand, Open
@@ -35,7 +36,7 @@ def test_a_dropped_hull_is_shown_beside(open_page: Open, hull: ah.Hull, tmp_path
     hand.until("p => p.store.beside !== null")
     hand.settled()
     box = hand.page.locator("details:has(h2:text-is('Beside'))")
-    assert f"Lpp {other.particulars.length:.2f}" in box.inner_text()
+    expect(box).to_contain_text(f"Lpp {other.particulars.length:.2f}", use_inner_text=True)
     shown = hand.ask("p => [...p.store.beside.frame.curves].map(([id, c]) => [id, ...c.xyz])")
     shapes = ah.read(tmp_path / "other.hull.json").shapes()
     assert [each[0] for each in shown] == shapes.curves.tolist()
@@ -57,7 +58,7 @@ def test_offsets_and_meshes_are_dropped_as_well(
         other.export(tmp_path / name)
         drop(hand, name, (tmp_path / name).read_bytes())
         box.get_by_text(f"{name}, dotted: ").wait_for()
-        assert "Lpp " in box.inner_text()
+        expect(box).to_contain_text("Lpp ", use_inner_text=True)
         assert hand.ask("p => p.store.beside.frame.curves.size") > 5
     assert hull.fingerprint == before
 
@@ -71,8 +72,8 @@ def test_garbage_that_is_dropped_is_told_in_a_sentence(
     drop(hand, name, bytes(range(256)))
     box = hand.page.locator("details:has(h2:text-is('Beside'))")
     box.get_by_text(name).first.wait_for()
-    assert "error of this program" not in box.inner_text()
-    assert "/tmp" not in box.inner_text()
+    expect(box).not_to_contain_text("error of this program", use_inner_text=True)
+    expect(box).not_to_contain_text("/tmp", use_inner_text=True)
     assert hull.fingerprint == before
 
 
@@ -123,14 +124,14 @@ def test_of_two_files_the_one_dropped_last_is_shown(
     hand.ask("p => p.let[0]()")
     hand.settled()
     box = hand.page.locator("details:has(h2:text-is('Beside'))")
-    assert "two.hull.json" in box.inner_text()
+    expect(box).to_contain_text("two.hull.json", use_inner_text=True)
     drop(hand, "one.hull.json", (tmp_path / "one.hull.json").read_bytes())
     hand.until("p => p.let.length === 3")
     box.get_by_role("button", name="Give up").click()
     hand.ask("p => p.let[2]()")
     hand.settled()
     assert hand.ask("p => p.store.beside === null")
-    assert "Nothing is shown beside" in box.inner_text()
+    expect(box).to_contain_text("Nothing is shown beside", use_inner_text=True)
 
 
 def test_a_server_that_answers_otherwise_is_told(open_page: Open, hull: ah.Hull) -> None:
@@ -145,5 +146,5 @@ def test_a_server_that_answers_otherwise_is_told(open_page: Open, hull: ah.Hull)
     drop(hand, "a.csv", b"1")
     told = box.get_by_text("a.csv: the server answered 200")
     told.wait_for()
-    assert "too large" not in box.inner_text()
+    expect(box).not_to_contain_text("too large", use_inner_text=True)
     assert hand.ask("p => p.store.beside === null")

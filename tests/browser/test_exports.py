@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import expect
 
 import assoc_hull as ah
 from tests.browser.conftest import Open
@@ -29,7 +30,7 @@ def test_files_are_handed_over_as_downloads(open_page: Open, hull: ah.Hull, tmp_
         download.value.save_as(target)
         assert target.stat().st_size > 1000
         assert target.read_bytes().startswith(begins)
-        assert name in box.inner_text()
+        expect(box).to_contain_text(name, use_inner_text=True)
         if form in SAME:
             hull.export(tmp_path / name)
             assert target.read_bytes() == (tmp_path / name).read_bytes()
@@ -57,7 +58,7 @@ def test_a_file_that_cannot_be_written_is_told_in_a_sentence(
         box.get_by_text("Write the file").click()
         box.get_by_text("assoc-hull[plot]").wait_for()
         assert handed == []
-        assert "matplotlib" in box.inner_text()
+        expect(box).to_contain_text("matplotlib", use_inner_text=True)
     box.locator("select").select_option("csv")
     with hand.page.expect_download() as download:
         box.get_by_text("Write the file").click()
@@ -78,9 +79,10 @@ def test_a_second_window_shows_the_edits_of_the_other_under_its_name(
     )
     anna.until("p => p.store.history.edits === 1")
     box.get_by_text("fuller", exact=True).first.wait_for()
-    assert "bert" in box.locator("li").first.inner_text()
-    told = anna.page.locator("details:has(h2:text-is('Edit'))").inner_text().split()
-    assert {"fuller", "bert"} <= set(told)
+    expect(box.locator("li").first).to_contain_text("bert", use_inner_text=True)
+    told = anna.page.locator("details:has(h2:text-is('Edit'))")
+    for word in ("fuller", "bert"):
+        expect(told).to_contain_text(word, use_inner_text=True)
     assert anna.shows_what_is_published()
     anna.page.keyboard.press("Control+z")
     anna.page.locator(".banner").get_by_text("0 steps of theirs").wait_for()

@@ -32,7 +32,7 @@ def test_a_window_is_faired_as_its_ghost_showed(open_page: Open, hull: ah.Hull) 
     box.locator("input[type=range]").fill("50")
     box.get_by_text("Nothing is changed yet").wait_for()
     shown = hand.ask("p => [...p.store.ghost.curves.keys()]")
-    assert POINT in box.inner_text()
+    expect(box).to_contain_text(POINT, use_inner_text=True)
     assert hull.fingerprint == before
     hand.page.keyboard.press("Escape")
     assert hand.ask("p => p.store.ghost === null")
@@ -62,7 +62,7 @@ def test_a_pull_that_is_answered_fairly_is_shown_before_it_is_made(
     box = hand.page.locator("details:has(h2:text-is('Proposal'))")
     box.get_by_text("Nothing is changed yet").wait_for()
     assert hull.fingerprint == before
-    assert "m³" in box.inner_text()
+    expect(box).to_contain_text("m³", use_inner_text=True)
     hand.page.keyboard.press("Enter")
     hand.until("p => p.store.history.edits === 1")
     assert "answered fairly" in hull.history[-1].name
@@ -138,7 +138,8 @@ def test_a_wavy_line_is_listed_with_what_its_batten_does_where_it_leads(
     found = hull.fairness()
     place = found.unfair[0]
     springs = f"{1e3 * place.residual:+.1f} mm".replace("-", "−")
-    assert row.inner_text().split("\t")[:2] == [place.line, springs]
+    expect(row.locator("th, td").nth(0)).to_have_text(place.line)
+    expect(row.locator("th, td").nth(1)).to_have_text(springs)
     away = place.residual - place.expected
     words = f"a {'hollow' if away > 0.0 else 'hump'} of {1e3 * abs(away):.1f} mm"
     heads = hand.page.evaluate(
@@ -146,10 +147,12 @@ def test_a_wavy_line_is_listed_with_what_its_batten_does_where_it_leads(
         ".map(each => parseFloat(getComputedStyle(each).paddingLeft))"
     )
     assert min(heads) >= 4.0, "heads of narrow columns do not run together"
-    assert words in box.get_by_text(f"{place.point} on {place.line}").first.inner_text()
+    expect(box.get_by_text(f"{place.point} on {place.line}").first).to_contain_text(
+        words, use_inner_text=True
+    )
     row.get_by_role("button").click()
     assert hand.ask("p => p.store.net.points.get(p.store.selection.row).name") == place.point
-    assert "list again" not in box.inner_text()
+    expect(box).not_to_contain_text("list again", use_inner_text=True)
     hand.ask("(p, name) => p.apply('fuller', [{op: 'pull', point: name, d: 0.005}])", place.point)
     box.get_by_text("before the last edit: list again").wait_for()
 

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 import assoc_hull as ah
 from assoc_hull.geometry.fairness.inflections import inflections
@@ -34,7 +35,7 @@ def test_the_first_picture_has_all_of_the_hull_in_four_views(
     """Drawn without a hand; the whole of the hull lies within each view."""
     hand = open_page(hull)
     assert hand.page.title() == "Series 60 CB 0.70 – fairing page"
-    assert "77 lines" in hand.page.locator(".dims").inner_text()
+    expect(hand.page.locator(".dims")).to_contain_text("77 lines", use_inner_text=True)
     for kind in VIEWS:
         assert hand.ask(INK, kind, "lower") > 3000
         out = hand.ask(
@@ -147,7 +148,7 @@ def test_lengths_are_compressed_and_a_view_stands_alone(open_page: Open, hull: a
         hand.settled()
         tall = hand.ask("p => p.views.half.sy / p.views.half.axis.s")
         assert abs(tall - factor) < 1e-9, "also where the height of the view has no room to grow"
-        assert hand.page.locator(".view-half .note").inner_text() == f"breadths × {factor}.0"
+        expect(hand.page.locator(".view-half .note")).to_have_text(f"breadths × {factor}.0")
     hand.page.keyboard.press("Escape")
     hand.page.keyboard.press("Escape")
     hand.settled()
@@ -182,8 +183,8 @@ def test_no_name_is_taken_for_markup(open_page: Open, hull: ah.Hull) -> None:
     hand.until("p => p.store.history.edits === 2")
     hand.page.mouse.move(*hand.spot(name))
     hand.page.wait_for_selector(".tip:not([hidden])")
-    assert bad in hand.page.locator("aside").inner_text()
-    assert bad in hand.page.locator(".view-body .tip").inner_text()
+    expect(hand.page.locator("aside")).to_contain_text(bad, use_inner_text=True)
+    expect(hand.page.locator(".view-body .tip")).to_contain_text(bad, use_inner_text=True)
     assert hand.page.locator("img").count() == 0
 
 
@@ -431,13 +432,15 @@ def test_a_second_page_sees_what_the_first_has_made(two: tuple[Hand, Hand]) -> N
     ]  # fmt: skip
     held = first.ask("p => [...p.hand.predictor.truth.frame.places.get(p.store.held.row)]")
     assert second.ask("p => [...p.store.theirs.frame.places.get(p.store.theirs.row)]") == held
-    assert "anna holds WL 0.625 x ST 16" in second.page.locator("footer").inner_text()
+    expect(second.page.locator("footer")).to_contain_text(
+        "anna holds WL 0.625 x ST 16", use_inner_text=True
+    )
     second.near(POINT)
     u, v = second.spot(POINT)
     second.page.mouse.move(u, v)
     second.page.mouse.down()
     second.page.wait_for_selector(".bubble")
-    assert "anna holds" in second.page.locator(".bubble").inner_text()
+    expect(second.page.locator(".bubble")).to_contain_text("anna holds", use_inner_text=True)
     second.page.mouse.up()
     first.release()
     second.until("p => p.store.history.edits === 2")
@@ -446,7 +449,7 @@ def test_a_second_page_sees_what_the_first_has_made(two: tuple[Hand, Hand]) -> N
     assert "anna's" in (second.page.get_by_role("button", name="Undo").get_attribute("title") or "")
     second.page.keyboard.press("Control+z")
     second.page.wait_for_selector(".banner:not([hidden])")
-    assert "bert" in second.page.locator(".banner").inner_text()
+    expect(second.page.locator(".banner")).to_contain_text("bert", use_inner_text=True)
     assert len(first.hull.history) == 2
 
 
@@ -479,13 +482,13 @@ def test_what_is_wrong_is_listed_and_found(open_page: Open, hull: ah.Hull) -> No
     hand.page.mouse.click(*hand.spot(POINT))
     hand.page.keyboard.press("Shift+P")
     hand.until("p => p.panel.problems.found !== null")
-    assert "Nothing is wrong." in hand.page.locator("aside").inner_text()
+    expect(hand.page.locator("aside")).to_contain_text("Nothing is wrong.", use_inner_text=True)
     hand.ask("p => p.activeView().upper.focus()")
     hand.page.keyboard.press("ArrowUp")
     hand.page.keyboard.press("Enter")
     hand.until("p => p.store.history.edits === 1")
     hand.settled()
-    assert "before the last edit" in hand.page.locator("aside").inner_text()
+    expect(hand.page.locator("aside")).to_contain_text("before the last edit", use_inner_text=True)
 
 
 NAMED = "(p, kind) => p.views[kind].written.slice(1).map(({text, box}) => [text, ...box])"

@@ -118,7 +118,7 @@ def test_hand_cell_and_saved_notebook_show_one_hull(lab: Lab, browser: Browser) 
     # A drag is a step of the cell's hull, in the name that the widget was given.
     hand.pull(POINT, 25.0)
     expect(lab.run(1)).to_contain_text("'anna')]")
-    assert f"pull {POINT}" in lab.cell(1).inner_text()
+    expect(lab.cell(1)).to_contain_text(f"pull {POINT}", use_inner_text=True)
     expect(lab.run(4)).to_contain_text("<Point ST 7 x WL 2.5>")
 
     # What a cell does is seen in the widget.

@@ -1,5 +1,7 @@
 """The palette: what can be done is found by its words."""
 
+from playwright.sync_api import expect
+
 import assoc_hull as ah
 from tests.browser.conftest import Open
 
@@ -12,7 +14,7 @@ def test_actions_and_names_are_found_by_a_few_letters(open_page: Open, hull: ah.
     keys.press("Control+k")
     box = hand.page.get_by_role("dialog", name="What to do")
     keys.type("hydrost")
-    assert "Hydrostatics" in box.get_by_role("option").first.inner_text()
+    expect(box.get_by_role("option").first).to_contain_text("Hydrostatics", use_inner_text=True)
     keys.press("Enter")
     hand.page.locator("details:has(h2:text-is('Hydrostatics')) table").wait_for()
     assert box.count() == 0

@@ -2,7 +2,7 @@
 
 import re
 
-from playwright.sync_api import Locator
+from playwright.sync_api import Locator, expect
 
 import assoc_hull as ah
 from tests.browser.conftest import Hand, Open
@@ -34,7 +34,7 @@ def test_the_history_goes_back_and_compares(open_page: Open, hull: ah.Hull) -> N
     pull(hand, 0.02)
     after, box = hull.fingerprint, opened(hand, "History")
     box.get_by_text("pull by hand").wait_for()
-    assert "anna" in box.locator("li").first.inner_text()
+    expect(box.locator("li").first).to_contain_text("anna", use_inner_text=True)
     box.get_by_label("compare with the hull as it came").click()
     box.get_by_text("Dashed: the hull as it was then").wait_for()
     assert hand.ask("p => p.store.ghost.curves.size") > 20
@@ -135,7 +135,7 @@ def test_hydrostatics_tell_what_changed_since_the_session_began(
     box.locator("table").wait_for()
     row = box.locator("tr").first
     more = hull.hydrostatics().volume - volume
-    assert f"+{more:.2f} m³" in row.inner_text()
+    expect(row).to_contain_text(f"+{more:.2f} m³", use_inner_text=True)
     assert box.locator("svg polyline").count() == 2
     assert box.locator("svg rect").count() > 2
 
@@ -168,7 +168,7 @@ def test_a_hull_that_is_sound_is_said_to_be(open_page: Open, hull: ah.Hull) -> N
     box.get_by_text("Check the hull").click()
     box.get_by_text("Nothing is wrong.").wait_for()
     assert hull.check() == ()
-    assert box.locator("summary").inner_text().split() == ["Problems"]
+    expect(box.locator("summary")).to_have_text("Problems", use_inner_text=True)
     assert box.locator("button.link").count() == 0
 
 
@@ -206,14 +206,14 @@ def test_what_was_refused_last_stands_among_the_problems(open_page: Open, hull: 
     hand.page.keyboard.press("Escape")
     hand.page.wait_for_selector(".bubble", state="detached")
     reason = box.locator("button.link").first
-    assert box.locator("summary").inner_text().split() == ["Problems", "1"]
+    expect(box.locator("summary")).to_have_text("Problems 1", use_inner_text=True)
     hand.page.keyboard.press("Escape")
     assert hand.ask("p => p.store.selection.row") is None
     reason.click()
     assert hand.ask("p => p.store.net.points.get(p.store.selection.row).name") == POINT
     pull(hand, 0.01)
     reason.wait_for(state="detached")
-    assert box.locator("summary").inner_text().split() == ["Problems"]
+    expect(box.locator("summary")).to_have_text("Problems", use_inner_text=True)
 
 
 def test_a_click_on_a_problem_goes_to_its_place(open_page: Open) -> None:
@@ -273,7 +273,7 @@ def test_the_points_of_every_line_fit_the_panel(open_page: Open, bulk_carrier: a
     hand.ask("p => p.find('ST 18')")
     box = opened(hand, "Points")
     box.locator("caption").get_by_text("all at x = 270.000").wait_for()
-    assert box.locator("th").all_inner_texts() == ["point", "y", "z"]
+    expect(box.locator("th")).to_have_text(["point", "y", "z"], use_inner_text=True)
     fits = (
         "(([aside]) => aside.scrollWidth <= aside.clientWidth)(document.querySelectorAll('aside'))"
     )
@@ -283,7 +283,7 @@ def test_the_points_of_every_line_fit_the_panel(open_page: Open, bulk_carrier: a
         assert hand.page.evaluate(fits), name
     hand.ask("p => p.find('deck edge')")
     box.locator("caption").get_by_text("deck edge").wait_for()
-    assert box.locator("th").all_inner_texts() == ["point", "x", "y", "z"]
+    expect(box.locator("th")).to_have_text(["point", "x", "y", "z"], use_inner_text=True)
 
 
 def test_what_has_moved_a_little_has_not_moved_by_nothing(open_page: Open, hull: ah.Hull) -> None:
@@ -296,7 +296,8 @@ def test_what_has_moved_a_little_has_not_moved_by_nothing(open_page: Open, hull:
     box = opened(hand, "History")
     box.get_by_label("compare with the hull as it came").click()
     box.get_by_text("Dashed: the hull as it was then").wait_for()
-    assert re.search(r"Most: BTK [\d.]+ by [\d.]+ mm,", box.locator("[role=status]").inner_text())
+    most = re.compile(r"Most: BTK [\d.]+ by [\d.]+ mm,")
+    expect(box.locator("[role=status]")).to_contain_text(most)
 
 
 def test_names_of_the_grid_stay_at_the_foot(open_page: Open, bulk_carrier: ah.Hull) -> None:
@@ -318,7 +319,7 @@ def test_what_was_said_gives_way_to_a_hint(open_page: Open, hull: ah.Hull) -> No
     hand = open_page(hull)
     hand.ask("p => p.say('something was done')")
     foot = hand.page.locator(".page > footer")
-    assert "something was done" in foot.inner_text()
+    expect(foot).to_contain_text("something was done", use_inner_text=True)
     foot.get_by_text("Click a point or a line").wait_for(timeout=8000)
 
 

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import attrs
-from playwright.sync_api import Browser, WebSocketRoute
+from playwright.sync_api import Browser, WebSocketRoute, expect
 
 import assoc_hull as ah
 from assoc_hull.page import PageServer
@@ -63,7 +63,7 @@ def test_a_page_comes_back_by_itself_after_its_server_was_killed(
     first.run.send_signal(signal.SIGKILL)
     first.run.communicate()
     page.wait_for_selector(".banner:not([hidden])")
-    assert "kept" in page.locator(".banner").inner_text()
+    expect(page.locator(".banner")).to_contain_text("kept", use_inner_text=True)
     assert hand.ask("p => p.store.held === null && p.store.overlay === null")
     assert hand.ask("p => p.store.curves.size") > 70
     page.mouse.up()

@@ -3,15 +3,17 @@
 import re
 from collections.abc import Callable
 
+from playwright.sync_api import Locator, expect
+
 import assoc_hull as ah
 from tests.browser.conftest import Hand, Open
 
 POINT = "WL 0.625 x ST 16"
 
 
-def panel(hand: Hand, title: str) -> str:
-    """Read a panel."""
-    return hand.page.locator(f"details:has(h2:text-is('{title}'))").inner_text()
+def panel(hand: Hand, title: str) -> Locator:
+    """Give a panel."""
+    return hand.page.locator(f"details:has(h2:text-is('{title}'))")
 
 
 def proposed(hand: Hand, key: str) -> str:
@@ -19,7 +21,7 @@ def proposed(hand: Hand, key: str) -> str:
     hand.page.keyboard.press(key)
     hand.until("p => p.panel.proposal.ready")
     hand.settled()
-    return panel(hand, "Proposal")
+    return panel(hand, "Proposal").inner_text()
 
 
 def test_an_edit_tells_the_movement_that_its_preview_told(open_page: Open, hull: ah.Hull) -> None:
@@ -30,8 +32,8 @@ def test_an_edit_tells_the_movement_that_its_preview_told(open_page: Open, hull:
     assert "between points" in before[0]
     hand.page.keyboard.press("Enter")
     hand.until("p => p.store.history.edits === 1 && p.store.last")
-    hand.settled()
-    assert re.findall(figures, panel(hand, "Edit")) == before
+    expect(panel(hand, "Edit")).to_contain_text(before[0], use_inner_text=True)
+    assert re.findall(figures, panel(hand, "Edit").inner_text()) == before
 
 
 def test_undo_takes_away_what_is_only_shown_before_an_edit(open_page: Open, hull: ah.Hull) -> None:
@@ -60,11 +62,12 @@ def test_an_edit_that_is_taken_back_is_no_longer_told(open_page: Open, hull: ah.
     hand.page.get_by_role("button", name="Undo").click()
     hand.page.locator("footer").get_by_text("Taken back: fuller.").wait_for()
     told = panel(hand, "Edit")
-    assert "the hull is as it came" in told
-    assert "off the hull" not in told
+    expect(told).to_contain_text("the hull is as it came", use_inner_text=True)
+    expect(told).not_to_contain_text("off the hull", use_inner_text=True)
     hand.page.get_by_role("button", name="Redo").click()
     hand.page.locator("footer").get_by_text("Made again: fuller.").wait_for()
-    assert "taken back" not in panel(hand, "Edit")
+    expect(told).not_to_contain_text("taken back", use_inner_text=True)
+    expect(told).to_contain_text("off the hull", use_inner_text=True)
 
 
 def test_no_step_is_lost_while_an_edit_is_being_made(open_page: Open, hull: ah.Hull) -> None:
@@ -186,4 +189,4 @@ def test_no_factor_of_movement_is_told_where_none_is_drawn(open_page: Open, hull
     )
     hand.settled()
     for kind in ("body", "profile", "half"):
-        assert hand.page.locator(f".view-{kind} .note").inner_text() == ""
+        expect(hand.page.locator(f".view-{kind} .note")).to_have_text("")

@@ -4,7 +4,7 @@ import time
 from typing import Any
 
 import pytest
-from playwright.sync_api import Locator
+from playwright.sync_api import Locator, expect
 
 import assoc_hull as ah
 from assoc_hull.edit.document import STOPPED
@@ -46,7 +46,7 @@ def test_a_variant_is_a_ghost_until_it_is_applied(open_page: Open, hull: ah.Hull
     assert [step.author for step in hull.history] == ["anna"]
     for number, flat in ghost:  # what was shown is what was made, to the bit
         assert flat == hull.state.spline(number).xyz.ravel().tolist()
-    assert f"B {wanted:.2f}" in page.locator(".dims").inner_text()
+    expect(page.locator(".dims")).to_contain_text(f"B {wanted:.2f}", use_inner_text=True)
 
 
 def listed(hand: Hand, parameter: str) -> Locator:
@@ -84,7 +84,7 @@ def test_values_beyond_what_is_fair_are_asked_on_purpose(open_page: Open, hull: 
     field.fill("90")
     field.press("Enter")
     words.get_by_text("by “also unfair”").wait_for()
-    assert "accept" not in words.inner_text()
+    expect(words).not_to_contain_text("accept", use_inner_text=True)
     box.get_by_label("also unfair").check()
     field.press("Enter")
     words.get_by_text("Nothing is changed yet").wait_for()
