@@ -67,7 +67,7 @@ def test_an_edit_that_is_taken_back_is_no_longer_told(open_page: Open, hull: ah.
     hand.page.get_by_role("button", name="Redo").click()
     hand.page.locator("footer").get_by_text("Made again: fuller.").wait_for()
     expect(told).not_to_contain_text("taken back", use_inner_text=True)
-    expect(told).to_contain_text("off the hull", use_inner_text=True)
+    expect(told).to_contain_text("fuller", use_inner_text=True)
 
 
 def test_no_step_is_lost_while_an_edit_is_being_made(open_page: Open, hull: ah.Hull) -> None:
