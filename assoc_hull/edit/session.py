@@ -74,7 +74,6 @@ Bounds = tuple[float | None, float | None]
 """From where to where along an axis, m; None for no bound."""
 
 _USE = "use it in a with statement"
-_HANDLE = "give a handle or an address"
 
 
 _RAISED = (

@@ -1,4 +1,4 @@
-"""Filters of an exported graph: what lies near a node, and some of the nodes.
+"""Filters of an exported graph: nodes within some steps, and some of the nodes.
 
 The live structure is arrays; a networkx graph is only a view of it for people and tools.
 What is kept stays in the order of the graph it is taken from. The text forms of a graph
@@ -17,45 +17,9 @@ if TYPE_CHECKING:
 
     Any_Graph = networkx.DiGraph[str]
 
-__all__ = ["neighbourhood_graph", "nodes_within", "subgraph"]
+__all__ = ["nodes_within", "subgraph"]
 
 G = TypeVar("G", bound="Any_Graph")
-
-
-def neighbourhood_graph(graph: G, node: str, up: int = 1, down: int = 1) -> G:
-    """Keep what lies within some hops of a node.
-
-    Parameters
-    ----------
-    graph : networkx.DiGraph or MultiDiGraph
-        The graph.
-    node : str
-        The node.
-    up, down : int
-        Most hops against and along the edges.
-
-    Returns
-    -------
-    graph
-        A graph of its own, of the same class.
-
-    Raises
-    ------
-    UnknownNameError
-        No such node.
-
-    Examples
-    --------
-    >>> import networkx
-    >>> from assoc_hull.graph.graph_filter import neighbourhood_graph
-    >>> sorted(
-    ...     neighbourhood_graph(
-    ...         networkx.DiGraph([("a", "b"), ("b", "c"), ("c", "d")]), "b", up=1, down=1
-    ...     )
-    ... )
-    ['a', 'b', 'c']
-    """
-    return subgraph(graph, nodes_within(graph, [node], up, down))
 
 
 def nodes_within(

@@ -27,7 +27,6 @@ __all__ = [
     "end_points",
     "forms_of",
     "forms_with",
-    "generated_on",
     "kept_rows",
     "line_offset",
     "part_in_line",
@@ -54,12 +53,6 @@ def kept_rows(state: HullState) -> IntArray:
     They ride with no other point: what was drawn by hand keeps its shape.
     """
     return _known(state)[2]
-
-
-def generated_on(state: HullState, curve: int) -> GeneratedCurve | None:
-    """Give what is known of a curve that comes, or came, from definitions; else None."""
-    found = [each for each in state.generated if each.curve == curve]
-    return found[0] if found else None
 
 
 def unmade_rows(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:

@@ -23,7 +23,7 @@ from assoc_hull.geometry.fitting.foot_points import derivatives
 from assoc_hull.geometry.patches.knots import span_limits
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
-__all__ = ["SurfaceElements", "normal_cosines", "surface_elements"]
+__all__ = ["SurfaceElements", "surface_elements"]
 
 _PART = 4
 """Places a span each way."""
@@ -111,26 +111,3 @@ def _turned(normal: FloatArray) -> np.typing.NDArray[np.bool_]:
     found[1:] |= (normal[1:] * normal[:-1]).sum(axis=-1) < 0.0
     found[:, 1:] |= (normal[:, 1:] * normal[:, :-1]).sum(axis=-1) < 0.0
     return found
-
-
-def normal_cosines(surface: SplineSurface, uv: FloatArray, normal: FloatArray) -> FloatArray:
-    """Give the cosine of the surface's normals with given directions.
-
-    Parameters
-    ----------
-    surface : SplineSurface
-        A bicubic B-spline.
-    uv : (k, 2), m
-        Parameters.
-    normal : (k, 3)
-        Directions, of any length.
-
-    Returns
-    -------
-    (k,)
-        Below 0 where the surface faces the other way; nil where it has no normal.
-    """
-    _, along, across = derivatives(surface, uv)
-    own = np.cross(along, across)
-    size = np.linalg.norm(own, axis=1) * np.linalg.norm(normal, axis=1)
-    return np.asarray((own * normal).sum(axis=1) / np.where(size > 0.0, size, np.inf))

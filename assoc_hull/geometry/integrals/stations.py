@@ -1,6 +1,5 @@
 """Integrals over stations from values at them.
 
-`integrate_stations` integrates the not-a-knot cubic spline through the values, at any spacing.
 `integrate_by_simpson` is Simpson's rule in runs of equal spacing, as published tables of section
 areas were made with it: it is here to reproduce such tables.
 """
@@ -11,58 +10,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = [
     "checked_stations",
     "integrate_by_simpson",
-    "integrate_stations",
     "simpson_weights",
 ]
 
 
-def integrate_stations(x: ArrayLike, values: ArrayLike) -> FloatArray:
-    """Integrate over stations: the integral of the C2 cubic spline through the values.
-
-    The spline is the not-a-knot one, exact for cubics; the parabola through three stations
-    and the straight line through two. The integral is linear in the values.
-
-    Parameters
-    ----------
-    x : (n,), m
-        Positions of the stations, ascending, n >= 2.
-    values : (n, ...)
-        Values at the stations.
-
-    Returns
-    -------
-    (...)
-        The integrals, in the unit of the values times m.
-
-    Raises
-    ------
-    BadInputError
-        Fewer than two stations, positions that do not ascend, numbers that are not finite,
-        or not one value per station.
-
-    Examples
-    --------
-    >>> from assoc_hull.geometry.integrals.stations import integrate_stations
-    >>> float(integrate_stations([0, 1, 3, 4], [0, 1, 27, 64]))  # x^3
-    64.0
-    """
-    place, value = checked_stations(x, values)
-    rows = value.reshape(len(place), -1)
-    step = np.diff(place)[:, None]
-    slope = _spline_slopes(step[:, 0], rows)
-    parts = step * (rows[:-1] + rows[1:]) / 2.0 + step**2 * (slope[:-1] - slope[1:]) / 12.0
-    total: FloatArray = parts.sum(axis=0).reshape(value.shape[1:])
-    freeze(total)
-    return total
-
-
 def checked_stations(x: ArrayLike, values: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Take positions of stations and their values, as `integrate_stations` does."""
+    """Take positions of stations and their values, ascending, with one value each."""
     place, value = np.asarray(x, np.float64), np.asarray(values, np.float64)
     if place.ndim != 1 or len(place) < 2 or value.shape[:1] != place.shape:
         raise BadInputError(
@@ -77,41 +35,6 @@ def checked_stations(x: ArrayLike, values: ArrayLike) -> tuple[FloatArray, Float
             "sort the stations and leave out repeated ones",
         )
     return place, value
-
-
-def _spline_slopes(step: FloatArray, rows: FloatArray) -> FloatArray:
-    """Give the slopes of the not-a-knot spline at its stations, (n, c)."""
-    rise = np.diff(rows, axis=0) / step[:, None]
-    if len(step) == 1:
-        return np.concatenate([rise, rise])
-    matrix, right = _interior_rows(step, rise)
-    if len(step) == 2:
-        # One parabola: the slope of a chord is the mean of the slopes at its ends.
-        matrix[0, :2], matrix[-1, -2:] = 1.0, 1.0
-        right[0], right[-1] = 2.0 * rise[0], 2.0 * rise[-1]
-    else:
-        # One cubic over the two outermost intervals: equal third derivatives.
-        matrix[0, :3], right[0] = _joined(step[:2], rise[:2])
-        matrix[-1, :-4:-1], right[-1] = _joined(step[:-3:-1], rise[:-3:-1])
-    return np.asarray(np.linalg.solve(matrix, right), np.float64)
-
-
-def _joined(step: FloatArray, rise: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the equation of two intervals that share one cubic: its row and right side."""
-    near, far = 1.0 / step**2
-    return np.array([near, near - far, -far]), 2.0 * (rise[0] * near - rise[1] * far)
-
-
-def _interior_rows(step: FloatArray, rise: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the equations of equal second derivatives; the first and last row are zero."""
-    count = len(step) + 1
-    matrix, right = np.zeros((count, count)), np.zeros((count, rise.shape[1]))
-    inner: IntArray = np.arange(1, count - 1)
-    matrix[inner, inner - 1] = 1.0 / step[:-1]
-    matrix[inner, inner] = 2.0 / step[:-1] + 2.0 / step[1:]
-    matrix[inner, inner + 1] = 1.0 / step[1:]
-    right[1:-1] = 3.0 * (rise[:-1] / step[:-1, None] + rise[1:] / step[1:, None])
-    return matrix, right
 
 
 _EQUAL = 1e-6
@@ -136,7 +59,7 @@ def integrate_by_simpson(x: ArrayLike, values: ArrayLike) -> FloatArray:
     Raises
     ------
     BadInputError
-        As for `integrate_stations`, and a run with an odd number of steps.
+        Stations that do not ascend, not one value each, or a run with an odd number of steps.
 
     Examples
     --------

@@ -33,7 +33,6 @@ __all__ = [
     "power_table",
     "restriction_matrices",
     "sign_change_roots",
-    "subdivide_at",
     "subtract",
     "transform_coefficients",
     "u_derivative",
@@ -287,16 +286,6 @@ def restriction_matrices(degree: int, at: float) -> tuple[FloatArray, FloatArray
             upper[i, i + j] = math.comb(rest, j) * at**j * (1.0 - at) ** (rest - j)
     freeze(lower, upper)
     return lower, upper
-
-
-def subdivide_at(a: FloatArray, u: float, v: float) -> tuple[FloatArray, ...]:
-    """Cut the square at u and v: low-low, low-high, high-low and high-high coefficients."""
-    m, n = degrees(a)
-    return tuple(
-        transform_coefficients(rows, a, columns)
-        for rows in restriction_matrices(m, u)
-        for columns in restriction_matrices(n, v)
-    )
 
 
 # --------------------------------------------------------------------------------------

@@ -1,24 +1,20 @@
-"""Order along a curve: where it turns back on itself, and which items changed places.
+"""Order along a curve: where it turns back on itself.
 
-Both decisions rest on signs of sums of products, so they are the same for a curve whatever
+The decision rests on signs of sums of products, so it is the same for a curve whatever
 else is in the batch and on whatever machine.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable
-
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.splines.segments import segment_start
 
-__all__ = ["CurveFolds", "curve_folds", "order_kept"]
+__all__ = ["CurveFolds", "curve_folds"]
 
 
 @attrs.frozen(eq=False)
@@ -95,53 +91,6 @@ def curve_folds(batch: SplineBatch) -> CurveFolds:
     row = np.flatnonzero(worst < np.inf)
     curve = np.searchsorted(batch.start, row, side="right") - 1
     return CurveFolds(curve, row - batch.start[curve], worst[row])
-
-
-def order_kept(before: Iterable[int], after: Iterable[int]) -> tuple[int, ...]:
-    """Tell which items stand differently to one another in two sequences.
-
-    An item is told if some other item that is in both sequences was before it and is now
-    after it, or the reverse. Items that are in one sequence only are passed over.
-
-    Parameters
-    ----------
-    before, after : iterable of int
-        Items in their order; none may occur twice.
-
-    Returns
-    -------
-    tuple of int
-        The items whose relative order changed, in the order of `before`; empty if the order
-        was kept.
-
-    Raises
-    ------
-    BadInputError
-        An item occurs twice in one sequence.
-
-    Examples
-    --------
-    >>> from assoc_hull.geometry.splines.curve_order import order_kept
-    >>> order_kept([1, 2, 3, 4], [1, 9, 2, 4])
-    ()
-    >>> order_kept([1, 2, 3, 4], [1, 3, 2, 4])
-    (2, 3)
-    """
-    old, new = list(before), list(after)
-    place = {item: index for index, item in enumerate(new)}
-    twice = [item for items in (old, new) for item, times in Counter(items).items() if times > 1]
-    if twice:
-        raise BadInputError(
-            f"item {twice[0]} occurs more than once",
-            "where the order of two sequences was compared",
-            "give each item once",
-        )
-    both = [item for item in old if item in place]
-    rank = np.array([place[item] for item in both], np.int64)
-    # An item is out of order if a later one of `after` came earlier in `before`, or the reverse.
-    overtaken = np.maximum.accumulate(rank) > rank
-    overtaking = np.minimum.accumulate(rank[::-1])[::-1] < rank
-    return tuple(both[i] for i in np.flatnonzero(overtaken | overtaking))
 
 
 def _note(worst: FloatArray, left: FloatArray, right: FloatArray, bad: NDArray[np.bool_]) -> None:

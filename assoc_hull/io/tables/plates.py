@@ -187,7 +187,6 @@ def development_csv(developments: Iterable[Development]) -> str:
 
 _WHOLE: Schema = {"type": "integer", "minimum": 0}
 _MAYBE: Schema = {"type": ["number", "null"]}
-_SHARE: Schema = {"type": ["number", "null"]}
 
 _OTHER: dict[str, Schema] = {
     "name": TEXT.schema, "kind": one_of(KINDS).schema, "order": one_of((1, 2, 3)).schema,

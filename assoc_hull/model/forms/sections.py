@@ -43,7 +43,6 @@ __all__ = [
     "chord_of",
     "in_middle_body",
     "join_vertices",
-    "level_pieces",
     "parts_at_draught",
     "section_shape",
     "span_of",
@@ -223,11 +222,6 @@ def underwater_pieces(
 def straight_pieces(start: FloatArray, finish: FloatArray) -> SectionCurves:
     """Give straight pieces between points, (n, 2) each."""
     return SectionCurves(straight_vertices(start, finish), start, finish)
-
-
-def level_pieces(stand: SectionEnds, breadth: FloatArray) -> SectionCurves:
-    """Give level pieces from the contour to a half-breadth, (n,) m."""
-    return straight_pieces(stand.start, np.stack([stand.start[:, 0], breadth], axis=1))
 
 
 def chord_of(start: FloatArray, finish: FloatArray) -> FloatArray:

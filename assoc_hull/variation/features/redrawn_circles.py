@@ -17,10 +17,7 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import place, positive, text
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, freeze
-from assoc_hull.geometry.splines.evaluation import positions
-from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.segments import segment_start
+from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.variation.fields.bounded_functions import QUINTIC
 from assoc_hull.variation.fields.field import FieldRegion
 
@@ -30,7 +27,6 @@ __all__ = [
     "RedrawnCircle",
     "SpaceCircle",
     "changed_circles",
-    "directions_to_add",
     "distance_fade",
     "redraw_circle",
     "same_area",
@@ -53,11 +49,6 @@ _LARGEST = 0.1
 
 _MANY = 72
 """At so many places around a circle it is compared with the image."""
-
-_WITHIN = 1e-6
-"""A curve through points of a circle may leave it by this (m), else points are added."""
-
-_ROUNDS = 12
 
 
 @attrs.frozen(eq=False)
@@ -300,65 +291,6 @@ def tangent_point(circle: SpaceCircle, normal: ArrayLike, offset: float) -> Floa
     # a plane x, y or z = const gets its coordinate to the last bit
     found[exact] = offset * across[exact]
     return found
-
-
-def directions_to_add(circle: SpaceCircle, units: FloatArray) -> FloatArray:
-    """Give the directions to add so that the curve through the points is the circle.
-
-    The curve ends with the circle's tangents; it may leave the circle by 1e-6 m.
-
-    Parameters
-    ----------
-    circle : SpaceCircle
-    units : (n, 3)
-        Directions of the points that are there, in order along the arc, less than half a turn
-        from one to the next.
-
-    Returns
-    -------
-    (k, 3)
-        Directions of points to add, each half-way between two others.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from assoc_hull.variation.features.redrawn_circles import directions_to_add, SpaceCircle
-    >>> boss, angle = SpaceCircle.of([6, 0, 6], 1.0, [1, 0, 0]), np.linspace(-1.57, 1.57, 17)
-    >>> units = np.column_stack([0.0 * angle, np.cos(angle), np.sin(angle)])
-    >>> len(directions_to_add(boss, units))
-    16
-    """
-    new = np.zeros(len(units), bool)
-    for _ in range(_ROUNDS):
-        wide = np.flatnonzero(circle_deviation(circle, units) > _WITHIN)
-        if not len(wide):
-            break
-        middle = units[wide] + units[wide + 1]
-        middle = middle / np.sqrt((middle * middle).sum(axis=1))[:, None]
-        units = np.insert(units, wide + 1, middle, axis=0)
-        new = np.insert(new, wide + 1, True)
-    return units[new]
-
-
-def circle_deviation(circle: SpaceCircle, units: FloatArray) -> FloatArray:
-    """Give how far the curve through points of an arc leaves the circle, per interval, (n-1,), m.
-
-    Clamped: it ends with the circle's tangents.
-    """
-    # the sum of the turns is the normal, in the sense in which the points go round
-    turn = np.cross(units[:-1], units[1:]).sum(axis=0)
-    tangent = np.cross(turn / np.sqrt((turn * turn).sum()), units[[0, -1]])
-    batch = loft(
-        CurveData.single(
-            circle.at(units), end_kind=(EndKind.TANGENT, EndKind.TANGENT), end_vector=tangent
-        )
-    )
-    part = np.arange(1.0, 8.0) / 8.0
-    segment = segment_start(batch)
-    many = np.repeat(segment, len(part))
-    places = positions(batch, many, np.tile(part, len(segment))).T
-    away = circle.unit(places)[1] - circle.radius
-    return np.asarray(np.abs(away).reshape(len(segment), -1).max(axis=1))
 
 
 # --------------------------------------------------------------------------------------

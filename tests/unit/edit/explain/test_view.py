@@ -13,7 +13,7 @@ from assoc_hull.edit.explain.hull_graph import changed_by, graph_of
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, UnknownNameError
-from assoc_hull.graph.graph_filter import neighbourhood_graph
+from assoc_hull.graph.graph_filter import nodes_within
 from assoc_hull.graph.graph_text import FORMATS, graph_text
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import resolve_address
@@ -87,17 +87,17 @@ def test_dependencies_are_acyclic_and_follow_roles(document: Document) -> None:
 def test_around_keeps_hops_up_and_down() -> None:
     """Hops are counted on each side alone; more than there are end at the ends."""
     chain = networkx.DiGraph([("a", "b"), ("b", "c"), ("c", "d"), ("d", "e")])
-    assert sorted(neighbourhood_graph(chain, "c", up=2, down=1)) == ["a", "b", "c", "d"]
-    assert sorted(neighbourhood_graph(chain, "c", up=0, down=0)) == ["c"]
-    assert len(neighbourhood_graph(chain, "c", up=10**12, down=10**12)) == 5
+    assert sorted(nodes_within(chain, ["c"], up=2, down=1)) == ["a", "b", "c", "d"]
+    assert sorted(nodes_within(chain, ["c"], up=0, down=0)) == ["c"]
+    assert len(nodes_within(chain, ["c"], up=10**12, down=10**12)) == 5
     with pytest.raises(UnknownNameError):
-        neighbourhood_graph(chain, "z")
+        nodes_within(chain, ["z"])
 
 
 def test_what_is_reached_against_the_links_is_reached_along_them_too() -> None:
     """Two nodes that point at one another are each other's hop, up as down."""
     pair = networkx.DiGraph([("a", "b"), ("b", "a"), ("b", "c")])
-    assert sorted(neighbourhood_graph(pair, "a", up=1, down=2)) == ["a", "b", "c"]
+    assert sorted(nodes_within(pair, ["a"], up=1, down=2)) == ["a", "b", "c"]
 
 
 def test_around_a_line_means_around_its_curves_too(document: Document) -> None:

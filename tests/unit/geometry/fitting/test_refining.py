@@ -16,8 +16,7 @@ from assoc_hull.geometry.fitting.fit_surface import (
     spans_to_halve,
     subdivide_bays,
 )
-from assoc_hull.geometry.fitting.folds import normal_cosines, surface_elements
-from assoc_hull.geometry.fitting.foot_points import derivatives
+from assoc_hull.geometry.fitting.folds import surface_elements
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
 
@@ -128,14 +127,3 @@ def test_a_corner_whose_sides_are_tangent_is_singular() -> None:
     assert found.singular == ((0.0, 0.0),)
     assert found.place == (0.0, 0.0)
     assert found.least < 1e-12
-
-
-def test_facing_is_the_cosine_with_a_direction() -> None:
-    """Along the normal it is 1, against it -1, across it nil."""
-    surface = graph(0.1)
-    uv = np.random.default_rng(3).random((20, 2))
-    _, along, across = derivatives(surface, uv)
-    normal = np.cross(along, across)
-    assert normal_cosines(surface, uv, 3.0 * normal) == pytest.approx(np.ones(20))
-    assert normal_cosines(surface, uv, -normal) == pytest.approx(-np.ones(20))
-    assert normal_cosines(surface, uv, along) == pytest.approx(np.zeros(20), abs=1e-12)

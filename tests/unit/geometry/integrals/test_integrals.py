@@ -7,12 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from scipy.interpolate import CubicSpline
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.integrals.area_moments import line_integral, plane_integrals, section_area
-from assoc_hull.geometry.integrals.stations import integrate_stations
+from assoc_hull.geometry.integrals.stations import integrate_by_simpson
 
 COORDINATE = st.floats(-10.0, 10.0)
 
@@ -165,36 +164,6 @@ def test_one_level_per_section() -> None:
     assert section_area(two, np.array([1.0, 3.0])) == pytest.approx([2.0, 6.0], rel=1e-14)
 
 
-@given(
-    st.lists(st.floats(0.1, 5.0), min_size=1, max_size=30),
-    st.data(),
-)
-def test_stations_agree_with_scipy(steps: list[float], data: st.DataObject) -> None:
-    """The station integral is that of scipy's not-a-knot spline."""
-    x = np.concatenate([[0.0], np.cumsum(steps)])
-    values = data.draw(arrays(np.float64, len(x), elements=COORDINATE))
-    expected = float(CubicSpline(x, values).integrate(0.0, x[-1]))
-    slack = 1e-10 * (1.0 + x[-1] * np.abs(CubicSpline(x, values)(np.linspace(0, x[-1], 500))).max())
-    assert float(integrate_stations(x, values)) == pytest.approx(expected, abs=slack)
-
-
-@pytest.mark.parametrize(
-    ("count", "degree"),
-    [
-        pytest.param(2, 1, id="two stations, straight"),
-        pytest.param(3, 2, id="three stations, parabola"),
-        pytest.param(4, 3, id="four stations, cubic"),
-        pytest.param(9, 3, id="nine stations, cubic"),
-    ],
-)
-def test_stations_are_exact_for_polynomials(count: int, degree: int) -> None:
-    """Uneven stations give the exact integral of a polynomial, for many columns at once."""
-    x = np.sort(np.random.default_rng(count).uniform(0.0, 3.0, count))
-    values = np.stack([x**power for power in range(degree + 1)], axis=1)
-    exact = [(x[-1] ** (p + 1) - x[0] ** (p + 1)) / (p + 1) for p in range(degree + 1)]
-    assert integrate_stations(x, values) == pytest.approx(exact, rel=1e-11)
-
-
 @pytest.mark.parametrize(
     ("x", "values"),
     [
@@ -209,7 +178,7 @@ def test_stations_are_exact_for_polynomials(count: int, degree: int) -> None:
 def test_bad_stations_are_refused(x: list[float], values: list[float]) -> None:
     """Stations that cannot be integrated over are an error of the package."""
     with pytest.raises(BadInputError):
-        integrate_stations(x, values)
+        integrate_by_simpson(x, values)
 
 
 def test_bad_axes_levels_and_exponents_are_refused() -> None:

@@ -78,16 +78,6 @@ def test_derivatives() -> None:
     assert np.abs(value(algebra.v_derivative(a), u, v) - dv).max() <= 1e-14
 
 
-@pytest.mark.parametrize(("u", "v"), [(0.4871, 0.5137), (0.5, 0.5), (0.0, 1.0)])
-def test_parts_are_the_polynomial_there(u: float, v: float) -> None:
-    """The four parts of a cut, each on its own unit square."""
-    parts = algebra.subdivide_at(A, u, v)
-    places = [(u * U, v * V), (u * U, v + (1 - v) * V), (u + (1 - u) * U, v * V)]
-    places.append((u + (1 - u) * U, v + (1 - v) * V))
-    for part, (s, t) in zip(parts, places, strict=True):
-        assert np.abs(value(part) - value(A, s, t)).max() <= 2e-15
-
-
 @pytest.mark.parametrize(("axis", "degree"), [(-2, 14), (-1, 20), (-1, 1)])
 def test_degrees_come_down_as_they_went_up(axis: int, degree: int) -> None:
     """Lowering undoes elevation to 1e-14, at high degrees too."""
@@ -109,7 +99,6 @@ ALONE: dict[str, Callable[[FloatArray], FloatArray]] = {
     "product": lambda a: algebra.multiply(a, a[:, :3]),
     "sum": lambda a: algebra.add_polynomials(a, a[:, :3]),
     "after a product": lambda a: algebra.elevated(algebra.multiply(a, a), 15, 16),
-    "parts": lambda a: np.concatenate(algebra.subdivide_at(a, 0.4871, 0.5137), axis=-1),
     "integral": algebra.integral,
     "lower": lambda a: algebra.lowered(a, -1),
 }

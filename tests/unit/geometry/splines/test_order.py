@@ -1,4 +1,4 @@
-"""Folds of curves, and items that changed places."""
+"""Folds of curves."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.errors import BadInputError, TooFewPointsError
+from assoc_hull.errors import TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.splines.curve_order import curve_folds, order_kept
+from assoc_hull.geometry.splines.curve_order import curve_folds
 
 
 def curve_of(
@@ -113,43 +113,3 @@ def test_one_point_is_refused() -> None:
     """A curve of one point is an error of the package."""
     with pytest.raises(TooFewPointsError):
         curve_folds(curve_of([[0, 0]], [[1, 0]]))
-
-
-@pytest.mark.parametrize(
-    ("before", "after", "expected"),
-    [
-        pytest.param([1, 2, 3], [1, 2, 3], (), id="same"),
-        pytest.param([1, 2, 3], [7, 1, 8, 3], (), id="some gone, some new"),
-        pytest.param([1, 2, 3, 4], [1, 3, 2, 4], (2, 3), id="two exchanged"),
-        pytest.param([1, 2, 3, 4], [4, 1, 2, 3], (1, 2, 3, 4), id="last put first"),
-        pytest.param([], [1, 2], (), id="nothing before"),
-        pytest.param([5], [5], (), id="one"),
-    ],
-)
-def test_items_that_changed_places(
-    before: list[int], after: list[int], expected: tuple[int, ...]
-) -> None:
-    """Exactly the items that stand differently to some other one are told."""
-    assert order_kept(before, after) == expected
-
-
-@given(st.permutations(range(8)), st.permutations(range(8)))
-def test_items_agree_with_the_definition(before: list[int], after: list[int]) -> None:
-    """An item is told if and only if it makes an exchanged pair with another."""
-    expected = tuple(
-        a
-        for a in before
-        if any(
-            (before.index(a) < before.index(b)) != (after.index(a) < after.index(b))
-            for b in before
-            if b != a
-        )
-    )
-    assert order_kept(before, after) == expected
-
-
-@pytest.mark.parametrize(("before", "after"), [([1, 1], [1]), ([1], [2, 1, 2])])
-def test_repeated_items_are_refused(before: list[int], after: list[int]) -> None:
-    """An item that occurs twice has no one place."""
-    with pytest.raises(BadInputError):
-        order_kept(before, after)

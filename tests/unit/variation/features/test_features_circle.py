@@ -13,8 +13,6 @@ from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.variation.features.redrawn_circles import (
     SpaceCircle,
-    circle_deviation,
-    directions_to_add,
     redraw_circle,
     tangent_point,
 )
@@ -40,8 +38,6 @@ def test_a_clamped_half_circle_is_as_round_as_its_points_make_it(count: int, err
     )
     worst = abs(np.hypot(*sample(loft(clamped), 100)[1][:, 1:].T) - 1.0).max()
     assert f"{worst:.1e}" == error
-    # what the features are judged by takes seven places an interval
-    assert circle_deviation(UNIT, half(count)).max() == pytest.approx(worst, rel=0.02)
 
 
 @pytest.mark.parametrize(
@@ -73,18 +69,6 @@ def _bezier(count: int) -> float:
     points = np.vstack([corner, end + arm * np.array([end[1], -end[0]]), end])
     fine = BPoly(points[:, None, :], [0.0, 1.0])(np.linspace(0.0, 1.0, 2001))
     return float(abs(np.hypot(*fine.T) - 1.0).max())
-
-
-def test_points_are_added_until_the_curve_is_the_circle_to_a_micrometre() -> None:
-    """25 points, as a bossing end is drawn with, are too few for r = 1 m; what is added is few."""
-    units = half(25)
-    more = directions_to_add(UNIT, units)
-    both = np.vstack([units, more])
-    both = both[np.argsort(both[:, 2])]
-    assert circle_deviation(UNIT, units).max() > 1e-6
-    assert circle_deviation(UNIT, both).max() <= 1e-6
-    assert len(directions_to_add(UNIT, half(33))) == 0
-    assert 0 < len(more) <= 24
 
 
 def test_the_centre_is_the_image_and_the_radius_keeps_the_area() -> None:
