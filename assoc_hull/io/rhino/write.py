@@ -29,7 +29,7 @@ from assoc_hull.model.tables import HullState
 from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import fit_options, length_of
 from assoc_hull.surface.blocks.fitted_surface import require_sound_surface
-from assoc_hull.surface.cells.closed_mesh import mesh_of_state
+from assoc_hull.surface.cells.closed_mesh import fine_mesh_of_state
 from assoc_hull.surface.volume_check import displaced_of, mesh_faults
 
 __all__ = ["rhino_file", "rhino_module"]
@@ -87,7 +87,7 @@ def rhino_file(state: HullState, book: ExportBook) -> bytes:
     except AssocHullError as error:
         book.leave_out("surface", "the hull", f"none can be fitted: {error}")
     try:
-        mesh = mesh_of_state(state)
+        mesh = fine_mesh_of_state(state)
         faults = mesh_faults(mesh, displaced_of(state), gather_net(state))
         if faults and not book.accept:
             raise NotSoundError("the closed mesh", faults)
