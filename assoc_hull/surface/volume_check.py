@@ -34,6 +34,7 @@ __all__ = [
     "extent_faults",
     "mesh_below",
     "mesh_faults",
+    "mesh_off",
     "surface_below",
     "surface_volume_faults",
     "volume_faults",
@@ -247,6 +248,12 @@ def mesh_faults(mesh: ClosedMesh, displaced: Sequence[Displaced], net: CurveNet)
         _REMEDY if mesh.fine and mesh.steps > _FEW else f"give more points, or {_REMEDY}",
     ) or _centre_faults(displaced, [(each.lcb, each.vcb) for each in held])
     return (*found, *extent_faults(xyz, net))
+
+
+def mesh_off(mesh: ClosedMesh, displaced: Sequence[Displaced]) -> float:
+    """Tell by how much volumes of a mesh differ, of what is allowed."""
+    parts = [abs(mesh_below(mesh, each.level).volume / each.volume - 1.0) for each in displaced]
+    return max(parts, default=0.0) / _ALLOWED
 
 
 def mesh_below(mesh: ClosedMesh, level: float) -> BelowDraught:

@@ -7,7 +7,7 @@ Deck and transom are covered whatever the particulars say of the deck.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import attrs
 import numpy as np
@@ -764,13 +764,24 @@ _POINTS = (4, 8, 16, 32)
 
 
 def fine_mesh_of_state(
-    state: HullState, *, half: bool = False, leave_out: Collection[str] = ()
+    state: HullState,
+    off: Callable[[ClosedMesh], float],
+    *,
+    half: bool = False,
+    leave_out: Collection[str] = (),
 ) -> ClosedMesh:
-    """Make a closed mesh of the tables of a hull for a file: as fine as its lines ask for."""
+    """Make a closed mesh of the tables of a hull for a file: as fine as its lines ask for.
+
+    `off` tells by how much a mesh is another body than it should be; 1 is the most that is taken.
+    """
+    last = np.inf
     for points in _POINTS:
         mesh = mesh_of_state(state, half=half, points=points, leave_out=leave_out)
-        if mesh.fine:
+        now = off(mesh)
+        # What chords cut off is a fourth with twice as many; what stays has another reason.
+        if mesh.fine and (now <= 1.0 or now > 0.5 * last):
             break
+        last = now
     return mesh
 
 

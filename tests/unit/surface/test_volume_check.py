@@ -10,7 +10,7 @@ import assoc_hull as ah
 from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.errors import NotSoundError
 from assoc_hull.io.mesh.closed_mesh import write_mesh
-from assoc_hull.surface.cells.closed_mesh import ClosedMesh, examine_mesh
+from assoc_hull.surface.cells.closed_mesh import ClosedMesh, examine_mesh, fine_mesh_of_state
 from assoc_hull.surface.volume_check import displaced_of, extent_faults, mesh_faults
 from tests.cases.test_box_with_bilges import round_box
 from tests.drawn_hulls import half_chined
@@ -78,6 +78,24 @@ def test_too_few_points_are_told_to_be_more(hull: ah.Hull, tmp_path: Path, half:
     assert refused.value.findings[0].endswith(": give more points, or draw stations or waterlines "
                                               "there")  # fmt: skip
     assert hull.export(tmp_path / "a.stl", half=half, points=6).faults == ()
+
+
+@pytest.mark.parametrize("half", [False, True], ids=["both sides", "the port half"])
+def test_a_hull_of_few_lines_gets_the_points_that_its_volume_takes(
+    tmp_path: Path, half: bool
+) -> None:
+    """Four chords to an edge would cut off 1.1 % of it, eight 0.4 %."""
+    hull = ah.examples.wigley(stations=5, waterlines=3)
+    _, mine, theirs = hull.export(tmp_path / "a.stl", half=half).displaced
+    assert mine == pytest.approx(theirs, rel=5e-3)
+    with pytest.raises(NotSoundError, match="give more points"):
+        hull.export(tmp_path / "b.stl", half=half, points=4)
+
+
+def test_a_volume_that_points_do_not_mend_is_not_cut_ever_finer(hull: ah.Hull) -> None:
+    """Chords are halved once to see that they are not the reason."""
+    assert fine_mesh_of_state(hull.state, lambda _: 0.0).steps == 4
+    assert fine_mesh_of_state(hull.state, lambda _: 9.0).steps == 8
 
 
 @pytest.mark.parametrize("axis", ["x", "z"])
