@@ -73,6 +73,8 @@ class _Parser(argparse.ArgumentParser):
     def _meant(self, rest: Sequence[str]) -> str:
         """Say which option a word that was not known stands for, perhaps."""
         unknown = [each.partition("=")[0] for each in rest if each.startswith("-")]
+        if any(each.startswith("=") or each.endswith("=") for each in rest):
+            return "; write NAME=VALUE without blanks around the sign"
         if not unknown:
             return "; options stand behind all values"
         options = [each for action in self._actions for each in action.option_strings]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -276,6 +276,18 @@ def _faired(found: FairedFollowers | None) -> dict[str, Any] | None:
     return attrs.asdict(found, filter=lambda field, _: field.name != "steps")
 
 
+def _refuse_words(given: Mapping[str, Any], option: str) -> None:
+    """Refuse values that are no numbers as they are typed: with a comma, or with another unit."""
+    for name, value in given.items():
+        if isinstance(value, str):
+            length = option == "set" and not name.endswith("_deg")
+            unit = "in m, or one with mm, cm or m behind it" if length else "without a unit"
+            raise UsageError(
+                f"--{option} {name}={value}: '{value}' is no number; give one {unit}, with a point "
+                "where it has decimals"
+            )
+
+
 def _script(arguments: argparse.Namespace) -> dict[str, Any]:
     """Put together what is asked for; options go before what the file says."""
     from assoc_hull.variation.request import read_script
@@ -286,6 +298,8 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
         given = parse_pairs(typed, key)
         if key == "set":
             _require_values(typed)
+        if key != "layout":
+            _refuse_words(given, key)
         if given:
             script[key] = {**_held(script, key, arguments), **given}
     _reach(script, arguments)

@@ -8,8 +8,6 @@ from __future__ import annotations
 import os
 from collections.abc import Collection
 
-import numpy as np
-
 from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.arguments import all_of, flag
 from assoc_hull.errors import BadInputError
@@ -21,16 +19,10 @@ from assoc_hull.io.reports import ExportReport
 from assoc_hull.io.surfaces.hull_surface import SURFACE_ENDINGS, SURFACE_FORMS
 from assoc_hull.io.write_file import form_by_ending
 from assoc_hull.model.tables import HasState, state_of
-from assoc_hull.surface.cells.closed_mesh import closed_mesh
-from assoc_hull.surface.volume_check import displaced_of
+from assoc_hull.surface.cells.closed_mesh import fine_mesh_of_state, mesh_of_state
+from assoc_hull.surface.volume_check import displaced_of, mesh_off
 
 __all__ = ["export_file"]
-
-_POINTS = (4, 8, 16, 32)
-"""Parts of each piece of a line between crossings: the first with which chords are short enough."""
-
-_CHORD = 3e-4
-"""Chords of which one in twenty leaves its line by no more than this part of the length are."""
 
 
 def export_file(
@@ -60,14 +52,17 @@ def export_file(
     _refuse("scale", "a lines plan", given=scale is not None)
     if chosen in MESH_FORMS:
         # The mesh comes from the lines: it needs no surface, which takes longer.
-        for parts in _POINTS if points is None else (points,):
-            mesh = closed_mesh(hull, half=alone, points=parts, leave_out=names)
-            if mesh.sagitta[1] <= _CHORD * float(np.ptp(mesh.xyz[:, 0])):
-                break
+        by_lines = displaced_of(state, tunnels=not {each.name for each in state.tunnels} & names)
+        mesh = (
+            fine_mesh_of_state(
+                state, lambda made: mesh_off(made, by_lines), half=alone, leave_out=names
+            )
+            if points is None
+            else mesh_of_state(state, half=alone, points=points, leave_out=names)
+        )
         return write_mesh(
             mesh, path, chosen, unit=unit, name=state.particulars.name or "hull",
-            by_lines=displaced_of(state, tunnels=not {each.name for each in state.tunnels} & names),
-            net=gather_net(state), accept=taken,
+            by_lines=by_lines, net=gather_net(state), accept=taken,
         )  # fmt: skip
     return surface_of_hull(hull).write(path, chosen, unit=unit, half=alone, accept=taken)
 

@@ -1,8 +1,9 @@
 """Whether a body made on the lines of a hull encloses what hydrostatics find of the same lines.
 
 Meshes and surfaces fill the cells of the net in ways of their own, so that a volume which differs
-tells of a wrong body, though it is closed and passes near all lines. Compared are volumes below the
-design draught and below the lowest place of the deck edge, and the extent of the lines.
+tells of a wrong body, though it is closed and passes near all lines. Compared are volumes and their
+centres below the design draught and below the lowest place of the deck edge, and the extent of the
+lines. Of a half both sides are taken.
 """
 
 from __future__ import annotations
@@ -23,23 +24,42 @@ from assoc_hull.geometry.patches.volume_below import integrate_below
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.surfaces.triangles import grid_triangles
 from assoc_hull.model.tables import HullState
-from assoc_hull.surface.cells.closed_mesh import ClosedMesh
+from assoc_hull.surface.cells.closed_mesh import BelowDraught, ClosedMesh, triangles_below
+from assoc_hull.surface.cells.meshed_bodies import welded
 
 __all__ = [
+    "NOT_HELD",
     "Displaced",
     "displaced_of",
     "extent_faults",
+    "mesh_below",
     "mesh_faults",
-    "surface_volume",
+    "mesh_off",
+    "surface_below",
     "surface_volume_faults",
     "volume_faults",
 ]
 
+NOT_HELD = "not compared with hydrostatics, which were not had of its lines"
+"""What is told of a body that there was nothing to hold against."""
+
 _ALLOWED = 0.005
 """Volumes may differ by this part: five times what those of ships with waterlines do."""
 
+_CENTRE = 1e-3
+"""The centre of a volume may lie off by this part of the length: with `_ALLOWED` of the volume too
+much in one place and as much too little in another, these are a fifth of the length apart."""
+
 _BEYOND = 1e-3
 """A body may leave the extent of its lines by this part of the length."""
+
+_ON_CENTRE = 1e-6
+"""Places so near to the centre plane (lengths of the hull) lie in it."""
+
+_FEW = 4
+"""Chords to an edge that may be the reason, however near to their lines, on a slender hull."""
+
+_REMEDY = "draw stations or waterlines there"
 
 _PLACES = 101
 """Sections that are compared to find where volumes differ."""
@@ -59,12 +79,15 @@ class Displaced:
         Places along the ship.
     area : (n,), m2
         Of the sections there, of both sides.
+    centre : (float, float), m
+        x and z of the centre of the volume.
     """
 
     level: float
     volume: float
     x: FloatArray
     area: FloatArray
+    centre: tuple[float, float]
 
     def __attrs_post_init__(self) -> None:
         freeze(self.x, self.area)
@@ -88,25 +111,32 @@ def displaced_of(state: HullState, *, tunnels: bool = True) -> tuple[Displaced, 
         top = float(body.limits.deck[:, 2].min())
         levels = np.unique([min(state.particulars.draught, top), top])
         planes = FloatingPlanes(levels, 0.0 * levels, 0.0 * levels)
-        volumes = whole.measure(planes).volume
+        found = whole.measure(planes)
         return tuple(
-            _below(body, level, volume)
-            for level, volume in zip(levels.tolist(), volumes.tolist(), strict=True)
+            _below(body, level, volume, (along / volume, up / volume))
+            for level, volume, along, up in zip(
+                levels.tolist(), found.volume.tolist(), found.moment_x.tolist(),
+                found.moment_z.tolist(), strict=True,
+            )
             if volume > 0.0
-        )
+        )  # fmt: skip
     except (AssocHullError, ValueError, ArithmeticError):
         return ()  # such hulls have no reliable volume to be held against
 
 
-def _below(body: Flotation, level: float, volume: float) -> Displaced:
+def _below(body: Flotation, level: float, volume: float, centre: tuple[float, float]) -> Displaced:
     curve = area_curve(body, FloatingPlanes(np.array([level]), np.zeros(1), np.zeros(1)))
     edges = np.linspace(curve.low, curve.high, _PLACES + 1)
     x = 0.5 * (edges[1:] + edges[:-1])
-    return Displaced(level, volume, x, curve.at(x))
+    return Displaced(level, volume, x, curve.at(x), centre)
 
 
 def volume_faults(
-    displaced: Sequence[Displaced], volumes: Iterable[float], corners: FloatArray, sides: int
+    displaced: Sequence[Displaced],
+    volumes: Iterable[float],
+    corners: FloatArray,
+    sides: int,
+    remedy: str = _REMEDY,
 ) -> tuple[str, ...]:
     """Say by how much volumes differ from those of hydrostatics, and where most; nothing if little.
 
@@ -120,12 +150,14 @@ def volume_faults(
         Of triangles that follow it.
     sides : 1 or 2
         Of the ship that they are on.
+    remedy : str
+        What to do.
 
     Examples
     --------
     >>> import numpy as np
     >>> from assoc_hull.surface.volume_check import Displaced, volume_faults
-    >>> box = Displaced(2.0, 48.0, np.array([0.5, 1.5]), np.array([24.0, 24.0]))
+    >>> box = Displaced(2.0, 48.0, np.array([0.5, 1.5]), np.array([24.0, 24.0]), (1.0, 1.0))
     >>> volume_faults([box], [48.1], np.empty((0, 3, 3)), 2)
     ()
     """
@@ -143,8 +175,31 @@ def volume_faults(
         f"it holds {volume:.2f} m3 below {found.level:.2f} m, where hydrostatics find "
         f"{found.volume:.2f} m3 on the same lines: {100.0 * part:+.2f} %; most is at x = "
         f"{found.x[k]:.2f} m, where its section has {here[k]:.2f} m2 and the lines "
-        f"{found.area[k]:.2f} m2: draw stations or waterlines there",
+        f"{found.area[k]:.2f} m2: {remedy}",
     )
+
+
+def _centre_faults(
+    displaced: Sequence[Displaced], centres: Iterable[tuple[float, float]]
+) -> tuple[str, ...]:
+    """Say how far centres (x, z), m, of right volumes lie from those of hydrostatics."""
+    off: list[tuple[float, str]] = []
+    for each, centre in zip(displaced, centres, strict=True):
+        # Half a step lies beyond the first and the last place.
+        length = float(np.ptp(each.x)) * len(each.x) / max(len(each.x) - 1, 1)
+        for axis, allowed, mine, lines in zip(
+            "xz", (_CENTRE * length, _ALLOWED * each.level), centre, each.centre, strict=True
+        ):
+            away = mine - lines
+            off.append((
+                abs(away) / max(allowed, 1e-300),
+                f"the centre of what it holds below {each.level:.2f} m is at {axis} = {mine:.3f} "
+                f"m, where hydrostatics find {lines:.3f} m on the same lines, {away:+.3f} m off, "
+                f"though the volume agrees: it is too full in one place and too fine in another; "
+                "draw more stations or waterlines",
+            ))  # fmt: skip
+    worst = max(off, default=None)
+    return () if worst is None or worst[0] <= 1.0 else (worst[1],)
 
 
 def _cut(corners: FloatArray, x: float, level: float) -> float:
@@ -171,7 +226,7 @@ def _cut(corners: FloatArray, x: float, level: float) -> float:
 
 
 def mesh_faults(mesh: ClosedMesh, displaced: Sequence[Displaced], net: CurveNet) -> tuple[str, ...]:
-    """Say where the closed mesh of both sides of a hull, made on a net, is not that of its lines.
+    """Say where the mesh of a hull or of its port half, made on a net, is not that of its lines.
 
     Examples
     --------
@@ -184,21 +239,59 @@ def mesh_faults(mesh: ClosedMesh, displaced: Sequence[Displaced], net: CurveNet)
     """
     xyz = mesh.xyz[: mesh.report.vertices]
     corners = xyz[mesh.triangle[: mesh.report.triangles]]
-    volumes = [mesh.below(each.level).volume for each in displaced]
-    return (*volume_faults(displaced, volumes, corners, 2), *extent_faults(xyz, net))
+    held = [mesh_below(mesh, each.level) for each in displaced]
+    found = volume_faults(
+        displaced,
+        [each.volume for each in held],
+        corners,
+        1 if mesh.half else 2,
+        _REMEDY if mesh.fine and mesh.steps > _FEW else f"give more points, or {_REMEDY}",
+    ) or _centre_faults(displaced, [(each.lcb, each.vcb) for each in held])
+    return (*found, *extent_faults(xyz, net))
+
+
+def mesh_off(mesh: ClosedMesh, displaced: Sequence[Displaced]) -> float:
+    """Tell by how much volumes of a mesh differ, of what is allowed."""
+    parts = [abs(mesh_below(mesh, each.level).volume / each.volume - 1.0) for each in displaced]
+    return max(parts, default=0.0) / _ALLOWED
+
+
+def mesh_below(mesh: ClosedMesh, level: float) -> BelowDraught:
+    """Give volume and centre of both sides below a level, of the mesh of a hull or of its half.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> from assoc_hull.surface.volume_check import mesh_below
+    >>> hull = ah.examples.wigley(stations=9, waterlines=6)
+    >>> mesh, half = hull.mesh(), hull.mesh(half=True)
+    >>> round(mesh_below(half, 6.25).volume / mesh_below(mesh, 6.25).volume, 9)
+    1.0
+    """
+    if not mesh.half:
+        return mesh.below(level)
+    xyz = mesh.xyz[: mesh.report.vertices].copy()
+    # What is open there lies in the centre plane but for rounding.
+    xyz[np.abs(xyz[:, 1]) <= _ON_CENTRE * float(np.ptp(xyz[:, 0])), 1] = 0.0
+    face = mesh.triangle[: mesh.report.triangles]
+    both = welded(
+        np.concatenate([xyz, xyz * (1.0, -1.0, 1.0) + 0.0]),
+        np.concatenate([face, face[:, ::-1] + len(xyz)]),
+    )
+    return triangles_below(both, level)
 
 
 def surface_volume_faults(
-    patches: Sequence[SplineSurface], volumes: Sequence[float], displaced: Sequence[Displaced]
+    patches: Sequence[SplineSurface], held: Sequence[BelowDraught], displaced: Sequence[Displaced]
 ) -> tuple[str, ...]:
-    """Say where the surface of a half hull, of known volumes (m3), is not that of its lines."""
+    """Say where the surface of a half hull, `held` below each level, is not that of its lines."""
     if all(
-        abs(volume / each.volume - 1.0) <= _ALLOWED
-        for volume, each in zip(volumes, displaced, strict=True)
+        abs(mine.volume / each.volume - 1.0) <= _ALLOWED
+        for mine, each in zip(held, displaced, strict=True)
     ):
-        return ()
+        return _centre_faults(displaced, [(each.lcb, each.vcb) for each in held])
     corners = np.concatenate([_followed(each) for each in patches])
-    return volume_faults(displaced, volumes, corners, 1)
+    return volume_faults(displaced, [each.volume for each in held], corners, 1)
 
 
 def _followed(patch: SplineSurface) -> FloatArray:
@@ -208,9 +301,11 @@ def _followed(patch: SplineSurface) -> FloatArray:
     return grid_triangles(patch.at(u[:, None], v[None, :])).corners
 
 
-def surface_volume(patches: Sequence[SplineSurface], level: float) -> float:
-    """Give the volume (m3) of both sides below a level."""
-    return 2.0 * float(integrate_below(patches, level).volume)
+def surface_below(patches: Sequence[SplineSurface], level: float) -> BelowDraught:
+    """Give volume and centre of both sides below a level."""
+    found = integrate_below(patches, level)
+    half, (along, up) = float(found.volume), found.moment.tolist()
+    return BelowDraught(2.0 * half, along / half if half else 0.0, up / half if half else 0.0)
 
 
 def extent_faults(xyz: FloatArray, net: CurveNet) -> tuple[str, ...]:

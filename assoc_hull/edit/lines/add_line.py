@@ -27,6 +27,7 @@ from assoc_hull.edit.lines.marks import (
     distinct_marks,
     find_marks,
     one_end_a_place,
+    plane_misses,
     required_marks,
     with_guides,
 )
@@ -211,7 +212,11 @@ def add_line(
         )
     line = edit.maker.line(cut.group, title, (cut.normal, cut.offset), key=cut.key)
     for piece in ordered_pieces(edit, line, marks):
-        make_piece(edit, line, distinct_marks(state, piece), keep or state.tolerances.keep)
+        apart = distinct_marks(state, piece)
+        if len(apart.curve) < 2:
+            # At B/2 the plane of a buttock has one place of the deck edge, met by many lines.
+            raise plane_misses(state, cut.group, cut.normal, cut.offset)
+        make_piece(edit, line, apart, keep or state.tolerances.keep)
     enter_line_plane(edit, line)
     curves, table = np.array(state.lines.curves[line], np.int64), state.rows
     on = table.alive.data & np.isin(table.curve.data, curves).any(axis=1)

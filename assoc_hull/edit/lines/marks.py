@@ -41,6 +41,7 @@ __all__ = [
     "find_guides",
     "find_marks",
     "one_end_a_place",
+    "plane_misses",
     "required_marks",
     "with_guides",
     "with_tangencies",
@@ -197,7 +198,7 @@ def find_marks(state: HullState, group: int, normal: FloatArray, position: float
     """
     found = _meet(state, _sources(state, group), normal, position, guide=False)
     if len(found.curve) < 2:
-        raise _misses(state, group, normal, position)
+        raise plane_misses(state, group, normal, position)
     return found
 
 
@@ -240,15 +241,18 @@ def _no_marks() -> Marks:
     return Marks(none, np.zeros(0), np.zeros((0, 3)), none, none, none, np.zeros(0, np.bool_))
 
 
-def _misses(state: HullState, group: int, normal: FloatArray, position: float) -> NoMeetingError:
+def plane_misses(
+    state: HullState, group: int, normal: FloatArray, position: float
+) -> NoMeetingError:
+    """Give the error of a plane that cuts no line: beside the hull, or at its very edge."""
     curves = state.live("curves")
     reach = np.concatenate([state.spline(curve).xyz @ normal for curve in curves.tolist()])
     nearest = max(0.0, float(reach.min() - position), float(position - reach.max()))
     return NoMeetingError(
-        f"the plane at {position:g} m of {state.groups.name[group]}",
-        nearest,
-        f"choose a position between {reach.min():.3f} and {reach.max():.3f} m",
-    )
+        f"the plane at {position:g} m of {state.groups.name[group]}", nearest,
+        f"choose a position above {reach.min():.3f} and below {reach.max():.3f} m",
+        touches=nearest == 0.0,
+    )  # fmt: skip
 
 
 _ONE_MARK = 1e-3

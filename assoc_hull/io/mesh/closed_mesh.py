@@ -24,7 +24,7 @@ from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.io.write_file import form_by_ending, write_whole
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh, examine_mesh, require_closed
 from assoc_hull.surface.cells.meshed_bodies import welded
-from assoc_hull.surface.volume_check import Displaced, mesh_faults
+from assoc_hull.surface.volume_check import NOT_HELD, Displaced, mesh_below, mesh_faults
 
 __all__ = [
     "MESH_ENDINGS",
@@ -287,7 +287,8 @@ class MeshFile:
     bodies : tuple of str
         Those of the groups that are bodies beside the hull, each closed by itself.
     displaced : (float, float, float) or None, m and m3
-        A level, the volume of the mesh below it, and that of hydrostatics; None: not compared.
+        A level, the volume of the mesh below it, of a half that of both sides, and that of
+        hydrostatics; None: not compared.
     faults : tuple of str
         What was accepted.
     """
@@ -318,6 +319,7 @@ class MeshFile:
         >>> print(MeshFile("a.stl", "stl", "m", False, 9, 14, 0, groups, 8.0, 784))
         9 vertices, 14 triangles: shell, deck
         closed, 8.000 m3
+        not compared with hydrostatics, which were not had of its lines
         written: a.stl (stl, m)
         """
         rows = [
@@ -330,10 +332,13 @@ class MeshFile:
             rows.append(f"beside the hull, closed surfaces of their own: {', '.join(self.bodies)}")
         if self.chord is not None:
             rows.append(f"lines leave the edges of triangles by up to {1e3 * self.chord:.1f} mm")
-        if self.displaced is not None:
+        if self.displaced is None:
+            rows.append(NOT_HELD)
+        else:
             level, mine, theirs = self.displaced
+            sides = "both sides hold " if self.half else ""
             rows.append(
-                f"below {level:.2f} m {mine:.3f} m3, by hydrostatics {theirs:.3f} m3 "
+                f"below {level:.2f} m {sides}{mine:.3f} m3, by hydrostatics {theirs:.3f} m3 "
                 f"({100.0 * (mine / theirs - 1.0):+.2f} %)"
             )
         rows += [f"accepted: {each}" for each in self.faults]
@@ -415,7 +420,7 @@ def write_mesh(
     side = "port half, open in the centre plane; " if mesh.half else ""
     title = f"{' '.join(text(name, 'the name', _WHERE).split())}: {side}unit {used}"
     filed = FiledMesh.of(mesh, _SCALES[used], known.rounded, title)
-    faults = () if mesh.half or net is None else mesh_faults(mesh, by_lines, net)
+    faults = () if net is None else mesh_faults(mesh, by_lines, net)
     if faults and not accept:
         raise NotSoundError(f"the closed mesh of {name}", faults)
     data = known.dumps(filed)
@@ -430,7 +435,7 @@ def write_mesh(
 
 def _compared(mesh: ClosedMesh, by_lines: Sequence[Displaced]) -> tuple[float, float, float] | None:
     """Give the level at which volumes differ most, with that of the mesh and of hydrostatics."""
-    if mesh.half or not by_lines:
+    if not by_lines:
         return None
-    found = [(each.level, mesh.below(each.level).volume, each.volume) for each in by_lines]
+    found = [(each.level, mesh_below(mesh, each.level).volume, each.volume) for each in by_lines]
     return max(found, key=lambda each: abs(each[1] / each[2] - 1.0))

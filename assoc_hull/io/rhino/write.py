@@ -29,8 +29,8 @@ from assoc_hull.model.tables import HullState
 from assoc_hull.surface.blocks.fit_net import surface_of_net
 from assoc_hull.surface.blocks.fit_options import fit_options, length_of
 from assoc_hull.surface.blocks.fitted_surface import require_sound_surface
-from assoc_hull.surface.cells.closed_mesh import mesh_of_state
-from assoc_hull.surface.volume_check import displaced_of, mesh_faults
+from assoc_hull.surface.cells.closed_mesh import fine_mesh_of_state
+from assoc_hull.surface.volume_check import displaced_of, mesh_faults, mesh_off
 
 __all__ = ["rhino_file", "rhino_module"]
 
@@ -87,8 +87,9 @@ def rhino_file(state: HullState, book: ExportBook) -> bytes:
     except AssocHullError as error:
         book.leave_out("surface", "the hull", f"none can be fitted: {error}")
     try:
-        mesh = mesh_of_state(state)
-        faults = mesh_faults(mesh, displaced_of(state), gather_net(state))
+        by_lines = displaced_of(state)
+        mesh = fine_mesh_of_state(state, lambda made: mesh_off(made, by_lines))
+        faults = mesh_faults(mesh, by_lines, gather_net(state))
         if faults and not book.accept:
             raise NotSoundError("the closed mesh", faults)
         file.add_mesh("closed mesh", mesh.xyz, mesh.triangle[: mesh.report.triangles])

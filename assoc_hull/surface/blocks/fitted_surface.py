@@ -27,9 +27,11 @@ from assoc_hull.surface.blocks.fit_quality import (
     doubts_of_half,
     doubts_of_limits,
 )
+from assoc_hull.surface.cells.closed_mesh import BelowDraught
 from assoc_hull.surface.volume_check import (
+    NOT_HELD,
     Displaced,
-    surface_volume,
+    surface_below,
     surface_volume_faults,
 )
 
@@ -164,9 +166,9 @@ class FittedSurface:
         return tuple(block.surface for block in self.blocks)
 
     @cached_property
-    def volumes(self) -> tuple[float, ...]:
-        """What it encloses below the levels of `displaced`, both sides, m3."""
-        return tuple(surface_volume(self.patches, each.level) for each in self.displaced)
+    def held(self) -> tuple[BelowDraught, ...]:
+        """What it encloses below the levels of `displaced`, both sides."""
+        return tuple(surface_below(self.patches, each.level) for each in self.displaced)
 
 
 # --------------------------------------------------------------------------------------
@@ -197,7 +199,7 @@ def surface_faults(surface: FittedSurface) -> tuple[str, ...]:
             ),
         )
     )
-    return (*found, *surface_volume_faults(surface.patches, surface.volumes, surface.displaced))
+    return (*found, *surface_volume_faults(surface.patches, surface.held, surface.displaced))
 
 
 def require_sound_surface(surface: FittedSurface, *, accept: bool) -> None:
@@ -277,8 +279,10 @@ def text_of(surface: FittedSurface) -> str:
     head += f"block(s), {count} Bezier patches"
     table = ResidualTable(surface.blocks, surface.whole)
     parts = [head, "", str(table), "", *map(_fit, surface.blocks)]
-    if surface.displaced:
-        parts += ["", *map(_volume, surface.volumes, surface.displaced)]
+    parts += [
+        "",
+        *(map(_volume, surface.held, surface.displaced) if surface.displaced else [NOT_HELD]),
+    ]
     if surface.borders:
         parts += ["", *map(_border, surface.borders)]
     if surface.left_out:
@@ -297,10 +301,10 @@ def _fit(block: FittedBlock) -> str:
     )
 
 
-def _volume(found: float, by_lines: Displaced) -> str:
+def _volume(found: BelowDraught, by_lines: Displaced) -> str:
     return (
-        f"below {by_lines.level:.2f} m: {found:.2f} m3, by hydrostatics of the lines "
-        f"{by_lines.volume:.2f} m3 ({100.0 * (found / by_lines.volume - 1.0):+.2f} %)"
+        f"below {by_lines.level:.2f} m: {found.volume:.2f} m3, by hydrostatics of the lines "
+        f"{by_lines.volume:.2f} m3 ({100.0 * (found.volume / by_lines.volume - 1.0):+.2f} %)"
     )
 
 

@@ -7,7 +7,7 @@ Deck and transom are covered whatever the particulars say of the deck.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import attrs
 import numpy as np
@@ -42,10 +42,12 @@ __all__ = [
     "cover_openings",
     "curves_named",
     "examine_mesh",
+    "fine_mesh_of_state",
     "mesh_of_net",
     "mesh_of_state",
     "mirror_half",
     "require_closed",
+    "triangles_below",
 ]
 
 
@@ -382,6 +384,16 @@ class BelowDraught:
     vcb: float
 
 
+def triangles_below(body: Triangles, level: float) -> BelowDraught:
+    """Give what a closed body of both sides has below a level, m, above its lowest place."""
+    plane = FloatingPlanes(np.array([level]), np.zeros(1), np.zeros(1))
+    found = immersed_triangles(make_body(body), plane)
+    volume = float(found.volume[0])
+    return BelowDraught(
+        volume, float(found.moment_x[0]) / volume, float(found.moment_z[0]) / volume
+    )
+
+
 @attrs.frozen(eq=False)
 class MeshedBody:
     """A closed surface of a body beside the net; one that stands on both sides has two.
@@ -403,6 +415,10 @@ class MeshedBody:
     last: int
     sign: int
     report: MeshReport
+
+
+_CHORD = 3e-4
+"""Chords of which one in twenty leaves its line by no more than this part of the length are."""
 
 
 @attrs.frozen(eq=False, repr=False)
@@ -461,6 +477,11 @@ class ClosedMesh(ShownAsText):
         return Triangles(self.xyz, self.triangle)
 
     @property
+    def fine(self) -> bool:
+        """Whether chords are as short as those of a mesh in a file are by default."""
+        return float(self.sagitta[1]) <= _CHORD * float(np.ptp(self.xyz[:, 0]))
+
+    @property
     def volume(self) -> float:
         """What the hull encloses, m3, without bodies beside it.
 
@@ -496,13 +517,7 @@ class ClosedMesh(ShownAsText):
             raise BadInputError(
                 f"a draught of {height:g} m, below which nothing lies", _WHERE, "give a larger one"
             )
-        level = FloatingPlanes(np.array([height]), np.zeros(1), np.zeros(1))
-        hull = Triangles(xyz, self.triangle[: self.report.triangles])
-        found = immersed_triangles(make_body(hull), level)
-        volume = float(found.volume[0])
-        return BelowDraught(
-            volume, float(found.moment_x[0]) / volume, float(found.moment_z[0]) / volume
-        )
+        return triangles_below(Triangles(xyz, self.triangle[: self.report.triangles]), height)
 
     @property
     def area(self) -> float:
@@ -742,6 +757,32 @@ def mesh_of_state(
         tunnels=[each for each in state.tunnels if each.name not in names],
         bodies=[each for each in state.bodies if each.name not in names],
     )  # fmt: skip
+
+
+_POINTS = (4, 8, 16, 32)
+"""Parts of each piece of a line between crossings: the first with which chords are short enough."""
+
+
+def fine_mesh_of_state(
+    state: HullState,
+    off: Callable[[ClosedMesh], float],
+    *,
+    half: bool = False,
+    leave_out: Collection[str] = (),
+) -> ClosedMesh:
+    """Make a closed mesh of the tables of a hull for a file: as fine as its lines ask for.
+
+    `off` tells by how much a mesh is another body than it should be; 1 is the most that is taken.
+    """
+    last = np.inf
+    for points in _POINTS:
+        mesh = mesh_of_state(state, half=half, points=points, leave_out=leave_out)
+        now = off(mesh)
+        # What chords cut off is a fourth with twice as many; what stays has another reason.
+        if mesh.fine and (now <= 1.0 or now > 0.5 * last):
+            break
+        last = now
+    return mesh
 
 
 def curves_named(net: CurveNet, names: Sequence[str], where: str = _WHERE) -> NDArray[np.bool_]:

@@ -30,7 +30,7 @@ from assoc_hull.variation.carrying.carry_stages import CarriedMap, StagedCarry
 from assoc_hull.variation.carrying.hull_maps import HullMaps
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE, Freedom
-from assoc_hull.variation.parameters.compose_map import refuse_clashes
+from assoc_hull.variation.parameters.compose_map import compose_map, refuse_clashes
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.value_limits import present_values
 from assoc_hull.variation.request import TargetRequest, VariationRequest
@@ -674,6 +674,13 @@ def freedoms(
         if name not in room.present:
             why = room.parent.absent.get(name, "the hull has none")
             raise BadInputError(f"cannot free '{name}': {why}", "in vary", "leave it out")
+        try:
+            compose_map(room.parent, {name: room.present[name]}, ask.layout)
+        except BadInputError as error:
+            # What is measured may have no field: a bilge of a hull without parallel body.
+            what, why = error.what.split(": ", 1) if ": " in error.what else (error.what, "")
+            if what == f"cannot vary '{name}'":
+                raise attrs.evolve(error, what=f"cannot free '{name}': {why}") from None
     refuse_clashes({**ask.values, **{name: room.present[name] for name in named}}, ask.layout)
     return tuple(
         Freedom.named(each, room.present[each], room.parent.length)

@@ -78,8 +78,9 @@ def test_half_unit_and_points_are_those_of_the_call(
     """The port half, in mm, of a coarser mesh; bare surfaces without a library."""
     whole = facts("export", small, "-o", tmp_path / "a.ply")["export"]
     half = facts(
-        "export", small, "-o", tmp_path / "b.ply", "--half", "--unit", "mm", "--points", 2
-    )["export"]
+        "export", small, "-o", tmp_path / "b.ply", "--half", "--unit", "mm", "--points", 2,
+        "--accept",
+    )["export"]  # fmt: skip
     assert (half["half"], half["unit"], half["volume"]) == (True, "mm", None)
     assert 7 * half["triangles"] < whole["triangles"]
     bare = facts(

@@ -53,3 +53,26 @@ def test_draughts_and_values_with_units_reach_the_hull(tmp_path: Path, facts: Js
     assert with_unit == facts("hydrostatics", path, "--draught", "5")
     assert main(["vary", str(path), "breadth=10.5m"]) == 0
     assert ah.open(path).particulars.breadth == pytest.approx(10.5)
+
+
+@pytest.mark.parametrize(
+    ("typed", "told"),
+    [
+        ("breadth=18,5", "'18,5' is no number; give one in m, or one with mm, cm or m behind it"),
+        ("breadth=59ft", "'59ft' is no number; give one in m, or one with mm, cm or m behind it"),
+        ("run_deg=3m", "'3m' is no number; give one without a unit"),
+    ],
+    ids=["a decimal comma", "feet", "degrees in metres"],
+)
+def test_a_value_that_is_no_number_is_told_how_to_be_typed(
+    typed: str, told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A shell has no quotes to leave out."""
+    assert main(["vary", "never.hull", typed]) == 2
+    assert told in capsys.readouterr().err
+
+
+def test_blanks_around_the_sign_of_a_value_are_told(capsys: pytest.CaptureFixture[str]) -> None:
+    """They part one word of the command into three."""
+    assert main(["vary", "never.hull", "breadth", "=", "18"]) == 2
+    assert "write NAME=VALUE without blanks" in capsys.readouterr().err

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.errors import BadInputError, NoMeetingError, UnknownNameError
 from tests.cases.test_hydrostatics_of_a_box import box_net
 
 
@@ -73,3 +73,17 @@ def test_a_line_given_for_a_point_is_answered_with_points_of_that_line(box: ah.H
         edit.pull("ST 3", 0.05)
     near = str(caught.value)
     assert "ST 3 " in near.partition(";")[2]
+
+
+@pytest.mark.parametrize("place", [0.0, 5.0], ids=["at the centre plane", "at half the breadth"])
+def test_a_plane_at_the_edge_of_the_hull_touches_and_is_told_so(place: float) -> None:
+    """It cuts no line there; just within the ends that the error tells it does."""
+    hull = ah.examples.wigley(stations=9, waterlines=6)
+    before = hull.fingerprint
+    with pytest.raises(NoMeetingError, match=r"touches .* above 0.000 and below 5.000 m") as told:
+        hull.apply("edge", [{"op": "add_line", "group": "buttocks", "position": place}])
+    assert told.value.touches
+    assert hull.fingerprint == before
+    for inside in (0.01, 4.99):
+        hull.apply("within", [{"op": "add_line", "group": "buttocks", "position": inside}])
+    assert hull.check() == ()

@@ -96,7 +96,7 @@ def test_renaming_keeps_the_identity(hull: ah.Hull) -> None:
         pytest.param(
             lambda e: e.add_line("waterlines", 50.0), NoMeetingError, "50", id="above all"
         ),
-        pytest.param(lambda e: e.add_line("sections", -9.0), NoMeetingError, "between", id="abaft"),
+        pytest.param(lambda e: e.add_line("sections", -9.0), NoMeetingError, "above", id="abaft"),
         pytest.param(lambda e: e.add_line("waterlines", math.nan), BadInputError, "nan", id="nan"),
         pytest.param(lambda e: e.add_line("boundary", 1.0), BadInputError, "boundary", id="space"),
         pytest.param(
