@@ -522,7 +522,7 @@ def test_every_line_is_named_in_its_own_view(
         width, height = hand.ask("(p, kind) => [p.views[kind].width, p.views[kind].height]", kind)
         foot = hand.ask("(p, kind) => p.views[kind].at(0, 0, p.views[kind].box().z0, 1)[1]", kind)
         lines = [each for each in written if each[4] < foot + 1.0]
-        assert wanted - {text for text, *_ in lines} == set()
+        assert wanted - {text.removeprefix(f"{family} ") for text, *_ in lines} == set()
         boxes = np.array([each[1:] for each in written])
         assert boxes.min() >= 0.0
         assert (boxes[:, 2:] <= [width, height]).all()
@@ -561,6 +561,86 @@ def test_every_line_is_named_where_lengths_are_compressed(
     assert len(fore) > 8
     assert aft == sorted(aft)
     assert fore == sorted(fore, reverse=True)
+
+
+@pytest.mark.parametrize("factor", [1, 2, 5, 10])
+@pytest.mark.parametrize("name", ["series60_70", "bulk_carrier"])
+def test_waterlines_stand_above_the_half_breadth_plan_in_their_order(
+    open_page: Open, name: str, factor: int, request: pytest.FixtureRequest
+) -> None:
+    """From the highest to the lowest aft, and back to the highest fore, however compressed."""
+    hand = open_page(request.getfixturevalue(name).snapshot())
+    hand.ask("(p, factor) => p.compress(factor)", factor)
+    hand.settled()
+    top = hand.ask(
+        "p => { const v = p.views.half, b = v.box(); return v.at(b.x1, b.y1, b.z1, 1)[1]; }"
+    )
+    heights = {text.removeprefix("WL "): float(text.removeprefix("WL "))
+               for text in hand.ask("p => p.store.net.lines.filter(l => l.family === 'waterlines')"
+                                    ".map(l => l.name)")}  # fmt: skip
+    row = sorted((left + right, heights[text]) for text, left, _, right, foot in
+                 hand.ask(NAMED, "half") if text in heights and foot < top - 2.0)  # fmt: skip
+    found = [height for _, height in row]
+    lowest = found.index(min(found))
+    assert len(found) > 15
+    assert found[: lowest + 1] == sorted(found[: lowest + 1], reverse=True)
+    assert found[lowest:] == sorted(found[lowest:])
+
+
+def test_names_of_waterlines_stand_clear_of_the_leaders_of_buttocks(
+    open_page: Open, bulk_carrier: ah.Hull
+) -> None:
+    """Where lengths are compressed these come out at the transom, and the names stand fore."""
+    hand = open_page(bulk_carrier.snapshot())
+    for factor in (5, 10):
+        hand.ask("(p, factor) => p.compress(factor)", factor)
+        hand.settled()
+        fore, width = hand.ask(
+            "p => { const v = p.views.profile; return [v.at(v.box().x1, 0, 0, 1)[0], v.width]; }"
+        )
+        column = [each for each in hand.ask(NAMED, "profile") if each[0] in {"WL", "DWL", "BL"}]
+        assert len(column) == 3
+        assert all(left > fore and right < width for _, left, _, right, _ in column)
+
+
+def test_borders_and_families_are_named(open_page: Open, bulk_carrier: ah.Hull) -> None:
+    """Deck edge, transom and both flats, where each is seen; from near a name has its family."""
+    hand = open_page(bulk_carrier.snapshot())
+    written = {kind: {text for text, *_ in hand.ask(NAMED, kind)}
+               for kind in ("body", "profile", "half")}  # fmt: skip
+    assert {"deck edge", "transom", "ST", "WL", "BTK"} <= written["body"]
+    assert {"deck edge", "flat of side", "WL", "BTK"} <= written["profile"]
+    assert {"deck edge", "flat of bottom", "WL", "BTK"} <= written["half"]
+    hand.ask("p => { p.views.profile.centre([295, 2, 10], 20); p.store.changed('hull'); }")
+    hand.settled()
+    assert any(text.startswith("BTK ") for text, *_ in hand.ask(NAMED, "profile"))
+    assert any(text.startswith("WL ") for text, *_ in hand.ask(NAMED, "half"))
+
+
+@pytest.mark.parametrize("scale", [8.0, 20.0, 40.0])
+@pytest.mark.parametrize("name", ["series60_70", "bulk_carrier"])
+def test_every_buttock_is_named_where_the_bow_is_seen_from_near(
+    open_page: Open, name: str, scale: float, request: pytest.FixtureRequest
+) -> None:
+    """Steep lines, lines with all their points drawn, and bundles too."""
+    hand = open_page(request.getfixturevalue(name).snapshot())
+    hand.ask(
+        "(p, scale) => { const {length, draught} = p.store.net.particulars;"
+        " p.views.profile.centre([length, 0, 0.6 * draught], scale);"
+        " p.store.changed('hull', 'overlay'); }", scale,
+    )  # fmt: skip
+    hand.settled()
+    seen = hand.ask(
+        "async p => { const {pathsOf} = await import('/view.js'), v = p.views.profile, long = {};"
+        " for (const {id, path} of pathsOf(v)) { const {name, family} = p.store.net.lineOf(id);"
+        " if (family !== 'buttocks') continue; for (let i = 0; i + 3 < path.length; i += 2) {"
+        " const [a, b, c, d] = path.slice(i, i + 4); if (a > 44 && a < v.width && b > 0"
+        " && b < v.height - 34) long[name] = (long[name] ?? 0) + Math.hypot(c - a, d - b); } }"
+        " return long; }"
+    )
+    named = {text.removeprefix("BTK ") for text, *_ in hand.ask(NAMED, "profile")}
+    assert len(seen) > 5
+    assert [each for each, far in seen.items() if far > 60.0 and each[4:] not in named] == []
 
 
 def test_names_with_leaders_stand_in_the_order_of_their_lines(

@@ -6,6 +6,8 @@
 
 export const CROSSING = 0, PLACED = 1, ADOPTED = 2;
 export const SHARED = 0, WATCHED = 3;
+/** Of a boundary: it encloses a flat. */
+export const FLATS = 1;
 const SORTS = ["crossing", "placed point", "adopted point"];
 const KINDS = ["smooth", "tangent", "knuckle"];
 

@@ -3,11 +3,11 @@
 import {combScale, evaluate, inflections, middleMovement, normalMovement, teeth} from "./hermite.js";
 import {diamond, drawHandles} from "./marks.js";
 import {drawLabels} from "./labels.js";
+import {FLATS} from "./net.js";
 import {drawBeside, drawPicture} from "./files.js";
 
 /** @typedef {Record<string, string>} Ink */
 
-const FLATS = 1;
 const LEAST_MOVED = 1e-4; // m
 
 /** @param {View} view @param {Ink} ink */
