@@ -1,9 +1,11 @@
 """What is seen: views, combs, sizes of the screen, names, and that nothing runs when idle."""
 
+import re
 from typing import Any
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 import assoc_hull as ah
 from assoc_hull.geometry.fairness.inflections import inflections
@@ -147,7 +149,9 @@ def test_lengths_are_compressed_and_a_view_stands_alone(open_page: Open, hull: a
         hand.settled()
         tall = hand.ask("p => p.views.half.sy / p.views.half.axis.s")
         assert abs(tall - factor) < 1e-9, "also where the height of the view has no room to grow"
-        assert hand.page.locator(".view-half .note").inner_text() == f"breadths × {factor}.0"
+        for told in (".view-half .note", "[data-action=compress]"):
+            words = re.compile(rf"^compressed × {factor}$", re.IGNORECASE)
+            expect(hand.page.locator(told)).to_have_text(words)
     hand.page.keyboard.press("Escape")
     hand.page.keyboard.press("Escape")
     hand.settled()
@@ -750,6 +754,56 @@ def test_a_ghost_of_other_knots_is_drawn_only_where_it_lies_elsewhere(
     assert other != 0
     assert max(moved) > 0.01
     assert sum(far < 1e-4 for far in moved) > len(moved) / 3
+
+
+def test_a_chosen_line_is_seen_in_every_drawing(open_page: Open, hull: ah.Hull) -> None:
+    """A waterline as a straight line in the body plan and the profile, a station in the others."""
+    hand = open_page(hull)
+    for name, kinds in (("WL 0.625", ("body", "profile")), ("ST 4", ("profile", "half"))):
+        for kind in kinds:
+            hand.ask("(p, kind) => { p.store.select(null, null); p.active = kind; }", kind)
+            hand.settled()
+            before = hand.ask(INK, kind, "upper")
+            hand.ask("(p, name) => p.store.select(null, p.store.net.findCurve(name))", name)
+            hand.settled()
+            size = hand.ask(
+                "(p, kind) => Math.min(p.views[kind].width, p.views[kind].height)", kind
+            )
+            assert hand.ask(INK, kind, "upper") > before + 0.3 * size
+
+
+def test_combs_end_within_their_drawing(open_page: Open, hull: ah.Hull) -> None:
+    """However long they are made, no tooth whose foot is seen runs over the edge."""
+    hand = open_page(hull)
+    hand.ask("p => { p.find('WL 0.625'); p.store.gain = 40; p.store.changed('overlay'); }")
+    hand.settled()
+    assert hand.ask(INK, "half", "upper") > 5000
+    at_edge = hand.ask(
+        "p => { const c = p.views.half.upper, t = new OffscreenCanvas(c.width, c.height),"
+        " g = t.getContext('2d', {willReadFrequently: true}); g.drawImage(c, 0, 0); let n = 0;"
+        " for (const [x, y, w, h] of [[0, 0, c.width, 1], [0, c.height - 1, c.width, 1],"
+        " [0, 0, 1, c.height], [c.width - 1, 0, 1, c.height]]) {"
+        " const d = g.getImageData(x, y, w, h).data;"
+        " for (let i = 3; i < d.length; i += 4) if (d[i] > 40) n++; } return n; }"
+    )
+    assert at_edge == 0
+
+
+def test_movement_is_drawn_by_one_factor_that_is_told_once(open_page: Open, hull: ah.Hull) -> None:
+    """In all drawings, in the line below; none where nothing is shown to move."""
+    hand = open_page(hull)
+    hand.near(POINT, scale=40.0)
+    x, y = hand.press(POINT)
+    hand.to(x + 1.0, y)
+    foot = hand.page.locator(".page > footer")
+    expect(foot).to_contain_text(re.compile(r"movement is drawn × [\d,]+ ·"), use_inner_text=True)
+    assert hand.ask("p => p.store.magnified") > 1
+    for kind in VIEWS:
+        expect(hand.page.locator(f".view-{kind} .note")).to_have_text("")
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.settled()
+    expect(foot).not_to_contain_text("movement", use_inner_text=True)
 
 
 def test_a_refusal_is_read_from_its_first_word(open_page: Open, hull: ah.Hull) -> None:

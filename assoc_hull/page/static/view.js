@@ -51,7 +51,6 @@ export class View {
     this.picture = null;
     /** Names on the drawing; the first is the title. @type {Name[]} */
     this.written = [];
-    this.magnified = 0;
     /** @type {Map<string, number>} */
     this.scales = new Map();
   }
