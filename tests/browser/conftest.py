@@ -11,7 +11,7 @@ from typing import Any
 import attrs
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
 import assoc_hull as ah
 from assoc_hull.page import PageServer
@@ -20,6 +20,11 @@ AXE = Path(__file__).resolve().parents[2] / "build/npm/node_modules/axe-core/axe
 # It comes by npm, which `make test-page` runs where it is installed.
 collect_ignore = [] if AXE.is_file() else ["test_accessibility.py"]
 collect_ignore += [] if shutil.which("node") else ["test_modules.py"]
+
+SLOW = 120_000
+"""ms: nothing on the page takes as long, also where other programs take the processors."""
+
+expect.set_options(timeout=SLOW)
 
 READY = ".page[data-ready=yes]"
 NAMES = ("chromium", "chromium-browser", "google-chrome")
@@ -148,7 +153,7 @@ def open_page(browser: Browser) -> Iterator[Open]:
     def look(context: BrowserContext, server: PageServer, at: str, before: str) -> Page:
         page = context.new_page()
         page.add_init_script(before)
-        page.set_default_timeout(30_000)
+        page.set_default_timeout(SLOW)
         page.on("console", lambda message: said.append(message.text))
         page.on("pageerror", lambda error: said.append(str(error)))
         page.on(

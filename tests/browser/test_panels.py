@@ -236,7 +236,7 @@ def test_the_curve_of_areas_runs_from_one_end_of_the_water_line_to_the_other(
     hand = open_page(bulk_carrier.snapshot())
     box = opened(hand, "Hydrostatics")
     picture = box.locator("svg")
-    expect(picture).to_contain_text("AP", timeout=60_000)
+    expect(picture).to_contain_text("AP")
     expect(picture).to_contain_text("FP")
     told = picture.locator("text").all_text_contents()
     low, high = (re.search(r"-?[\d.]+", text) for text in told if text.endswith(" m"))
@@ -256,7 +256,7 @@ def test_volume_has_one_word_and_one_symbol(open_page: Open, hull: ah.Hull) -> N
         opened(hand, "Hydrostatics"),
         hand.page.locator("details:has(h2:text-is('Edit'))"),
     )
-    expect(numbers.locator("tr").first).to_contain_text("∇", timeout=60_000)
+    expect(numbers.locator("tr").first).to_contain_text("∇")
     expect(numbers.locator("tr").first).to_have_attribute("title", re.compile("volume"))
     hand.near(POINT)
     x, y = hand.press(POINT)
@@ -269,6 +269,24 @@ def test_volume_has_one_word_and_one_symbol(open_page: Open, hull: ah.Hull) -> N
     hand.ask("(p, ops) => p.panel.proposal.show('pull', ops)", ops)
     told = hand.page.locator("details:has(h2:text-is('Proposal'))")
     expect(told).to_contain_text(re.compile(r"volume ∇ [+−±][\d.]+ m³"), use_inner_text=True)
+
+
+def test_the_page_uses_no_word_of_its_program(open_page: Open, hull: ah.Hull) -> None:
+    """Where a point is chosen and held, and where lines are listed that are to be faired."""
+    hand = open_page(hull)
+    words = re.compile(r"(?<!@ )\b(kernel|adopted|noise|turns|sort)\b")  # names are as given
+    box = opened(hand, "Fair")
+    box.get_by_role("button", name="List the waviest lines").click()
+    expect(box.locator("table")).to_contain_text("inflections")
+    expect(box).to_contain_text("Take out waviness of", use_inner_text=True)
+    hand.near(POINT)
+    x, y = hand.press(POINT)
+    hand.to(x + 3.0, y)
+    expect(hand.page.locator(".page > footer")).to_contain_text("computed in", use_inner_text=True)
+    expect(hand.page.locator(".page")).not_to_contain_text(words, use_inner_text=True)
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.settled()
 
 
 def test_points_that_define_a_line_are_told_from_those_on_it(
