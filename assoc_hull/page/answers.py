@@ -12,7 +12,10 @@ from typing import Any
 
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
 from assoc_hull.analysis.hydrostatics.record import FIELDS, Hydrostatics, RecordField
-from assoc_hull.analysis.hydrostatics.section_areas import sectional_areas
+from assoc_hull.analysis.hydrostatics.section_areas import (
+    sectional_area_course,
+    sectional_areas,
+)
 from assoc_hull.edit.explain.causes import Why
 from assoc_hull.hull.hull import Hull
 from assoc_hull.variation.carrying.admissible_values import list_parameters
@@ -60,7 +63,11 @@ def _value(field: RecordField, before: Hydrostatics, after: Hydrostatics) -> dic
 
 def _areas(hull: Hull) -> list[list[float]]:
     draught = hull.particulars.draught
-    found = sectional_areas(hull, FloatingPosition(draught, draught))
+    position = FloatingPosition(draught, draught)
+    # The water line goes on beyond the perpendiculars, where no station may stand.
+    if (course := sectional_area_course(hull, position)) is not None:
+        return [course[:, 0].tolist(), course[:, 1].tolist()]
+    found = sectional_areas(hull, position)
     return [found.x.tolist(), found.area[0].tolist()]
 
 

@@ -1,5 +1,6 @@
 """What is seen: views, combs, sizes of the screen, names, and that nothing runs when idle."""
 
+import re
 from typing import Any
 
 import numpy as np
@@ -148,7 +149,9 @@ def test_lengths_are_compressed_and_a_view_stands_alone(open_page: Open, hull: a
         hand.settled()
         tall = hand.ask("p => p.views.half.sy / p.views.half.axis.s")
         assert abs(tall - factor) < 1e-9, "also where the height of the view has no room to grow"
-        expect(hand.page.locator(".view-half .note")).to_have_text(f"breadths × {factor}.0")
+        for told in (".view-half .note", "[data-action=compress]"):
+            words = re.compile(rf"^compressed × {factor}$", re.IGNORECASE)
+            expect(hand.page.locator(told)).to_have_text(words)
     hand.page.keyboard.press("Escape")
     hand.page.keyboard.press("Escape")
     hand.settled()
@@ -525,7 +528,7 @@ def test_every_line_is_named_in_its_own_view(
         width, height = hand.ask("(p, kind) => [p.views[kind].width, p.views[kind].height]", kind)
         foot = hand.ask("(p, kind) => p.views[kind].at(0, 0, p.views[kind].box().z0, 1)[1]", kind)
         lines = [each for each in written if each[4] < foot + 1.0]
-        assert wanted - {text for text, *_ in lines} == set()
+        assert wanted - {text.removeprefix(f"{family} ") for text, *_ in lines} == set()
         boxes = np.array([each[1:] for each in written])
         assert boxes.min() >= 0.0
         assert (boxes[:, 2:] <= [width, height]).all()
@@ -564,6 +567,86 @@ def test_every_line_is_named_where_lengths_are_compressed(
     assert len(fore) > 8
     assert aft == sorted(aft)
     assert fore == sorted(fore, reverse=True)
+
+
+@pytest.mark.parametrize("factor", [1, 2, 5, 10])
+@pytest.mark.parametrize("name", ["series60_70", "bulk_carrier"])
+def test_waterlines_stand_above_the_half_breadth_plan_in_their_order(
+    open_page: Open, name: str, factor: int, request: pytest.FixtureRequest
+) -> None:
+    """From the highest to the lowest aft, and back to the highest fore, however compressed."""
+    hand = open_page(request.getfixturevalue(name).snapshot())
+    hand.ask("(p, factor) => p.compress(factor)", factor)
+    hand.settled()
+    top = hand.ask(
+        "p => { const v = p.views.half, b = v.box(); return v.at(b.x1, b.y1, b.z1, 1)[1]; }"
+    )
+    heights = {text.removeprefix("WL "): float(text.removeprefix("WL "))
+               for text in hand.ask("p => p.store.net.lines.filter(l => l.family === 'waterlines')"
+                                    ".map(l => l.name)")}  # fmt: skip
+    row = sorted((left + right, heights[text]) for text, left, _, right, foot in
+                 hand.ask(NAMED, "half") if text in heights and foot < top - 2.0)  # fmt: skip
+    found = [height for _, height in row]
+    lowest = found.index(min(found))
+    assert len(found) > 15
+    assert found[: lowest + 1] == sorted(found[: lowest + 1], reverse=True)
+    assert found[lowest:] == sorted(found[lowest:])
+
+
+def test_names_of_waterlines_stand_clear_of_the_leaders_of_buttocks(
+    open_page: Open, bulk_carrier: ah.Hull
+) -> None:
+    """Where lengths are compressed these come out at the transom, and the names stand fore."""
+    hand = open_page(bulk_carrier.snapshot())
+    for factor in (5, 10):
+        hand.ask("(p, factor) => p.compress(factor)", factor)
+        hand.settled()
+        fore, width = hand.ask(
+            "p => { const v = p.views.profile; return [v.at(v.box().x1, 0, 0, 1)[0], v.width]; }"
+        )
+        column = [each for each in hand.ask(NAMED, "profile") if each[0] in {"WL", "DWL", "BL"}]
+        assert len(column) == 3
+        assert all(left > fore and right < width for _, left, _, right, _ in column)
+
+
+def test_borders_and_families_are_named(open_page: Open, bulk_carrier: ah.Hull) -> None:
+    """Deck edge, transom and both flats, where each is seen; from near a name has its family."""
+    hand = open_page(bulk_carrier.snapshot())
+    written = {kind: {text for text, *_ in hand.ask(NAMED, kind)}
+               for kind in ("body", "profile", "half")}  # fmt: skip
+    assert {"deck edge", "transom", "ST", "WL", "BTK"} <= written["body"]
+    assert {"deck edge", "flat of side", "WL", "BTK"} <= written["profile"]
+    assert {"deck edge", "flat of bottom", "WL", "BTK"} <= written["half"]
+    hand.ask("p => { p.views.profile.centre([295, 2, 10], 20); p.store.changed('hull'); }")
+    hand.settled()
+    assert any(text.startswith("BTK ") for text, *_ in hand.ask(NAMED, "profile"))
+    assert any(text.startswith("WL ") for text, *_ in hand.ask(NAMED, "half"))
+
+
+@pytest.mark.parametrize("scale", [8.0, 20.0, 40.0])
+@pytest.mark.parametrize("name", ["series60_70", "bulk_carrier"])
+def test_every_buttock_is_named_where_the_bow_is_seen_from_near(
+    open_page: Open, name: str, scale: float, request: pytest.FixtureRequest
+) -> None:
+    """Steep lines, lines with all their points drawn, and bundles too."""
+    hand = open_page(request.getfixturevalue(name).snapshot())
+    hand.ask(
+        "(p, scale) => { const {length, draught} = p.store.net.particulars;"
+        " p.views.profile.centre([length, 0, 0.6 * draught], scale);"
+        " p.store.changed('hull', 'overlay'); }", scale,
+    )  # fmt: skip
+    hand.settled()
+    seen = hand.ask(
+        "async p => { const {pathsOf} = await import('/view.js'), v = p.views.profile, long = {};"
+        " for (const {id, path} of pathsOf(v)) { const {name, family} = p.store.net.lineOf(id);"
+        " if (family !== 'buttocks') continue; for (let i = 0; i + 3 < path.length; i += 2) {"
+        " const [a, b, c, d] = path.slice(i, i + 4); if (a > 44 && a < v.width && b > 0"
+        " && b < v.height - 34) long[name] = (long[name] ?? 0) + Math.hypot(c - a, d - b); } }"
+        " return long; }"
+    )
+    named = {text.removeprefix("BTK ") for text, *_ in hand.ask(NAMED, "profile")}
+    assert len(seen) > 5
+    assert [each for each, far in seen.items() if far > 60.0 and each[4:] not in named] == []
 
 
 def test_names_with_leaders_stand_in_the_order_of_their_lines(
@@ -673,6 +756,56 @@ def test_a_ghost_of_other_knots_is_drawn_only_where_it_lies_elsewhere(
     assert other != 0
     assert max(moved) > 0.01
     assert sum(far < 1e-4 for far in moved) > len(moved) / 3
+
+
+def test_a_chosen_line_is_seen_in_every_drawing(open_page: Open, hull: ah.Hull) -> None:
+    """A waterline as a straight line in the body plan and the profile, a station in the others."""
+    hand = open_page(hull)
+    for name, kinds in (("WL 0.625", ("body", "profile")), ("ST 4", ("profile", "half"))):
+        for kind in kinds:
+            hand.ask("(p, kind) => { p.store.select(null, null); p.active = kind; }", kind)
+            hand.settled()
+            before = hand.ask(INK, kind, "upper")
+            hand.ask("(p, name) => p.store.select(null, p.store.net.findCurve(name))", name)
+            hand.settled()
+            size = hand.ask(
+                "(p, kind) => Math.min(p.views[kind].width, p.views[kind].height)", kind
+            )
+            assert hand.ask(INK, kind, "upper") > before + 0.3 * size
+
+
+def test_combs_end_within_their_drawing(open_page: Open, hull: ah.Hull) -> None:
+    """However long they are made, no tooth whose foot is seen runs over the edge."""
+    hand = open_page(hull)
+    hand.ask("p => { p.find('WL 0.625'); p.store.gain = 40; p.store.changed('overlay'); }")
+    hand.settled()
+    assert hand.ask(INK, "half", "upper") > 5000
+    at_edge = hand.ask(
+        "p => { const c = p.views.half.upper, t = new OffscreenCanvas(c.width, c.height),"
+        " g = t.getContext('2d', {willReadFrequently: true}); g.drawImage(c, 0, 0); let n = 0;"
+        " for (const [x, y, w, h] of [[0, 0, c.width, 1], [0, c.height - 1, c.width, 1],"
+        " [0, 0, 1, c.height], [c.width - 1, 0, 1, c.height]]) {"
+        " const d = g.getImageData(x, y, w, h).data;"
+        " for (let i = 3; i < d.length; i += 4) if (d[i] > 40) n++; } return n; }"
+    )
+    assert at_edge == 0
+
+
+def test_movement_is_drawn_by_one_factor_that_is_told_once(open_page: Open, hull: ah.Hull) -> None:
+    """In all drawings, in the line below; none where nothing is shown to move."""
+    hand = open_page(hull)
+    hand.near(POINT, scale=40.0)
+    x, y = hand.press(POINT)
+    hand.to(x + 1.0, y)
+    foot = hand.page.locator(".page > footer")
+    expect(foot).to_contain_text(re.compile(r"movement is drawn × [\d,]+ ·"), use_inner_text=True)
+    assert hand.ask("p => p.store.magnified") > 1
+    for kind in VIEWS:
+        expect(hand.page.locator(f".view-{kind} .note")).to_have_text("")
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.settled()
+    expect(foot).not_to_contain_text("movement", use_inner_text=True)
 
 
 def test_a_refusal_is_read_from_its_first_word(open_page: Open, hull: ah.Hull) -> None:

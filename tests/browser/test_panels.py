@@ -216,6 +216,96 @@ def test_what_was_refused_last_stands_among_the_problems(open_page: Open, hull: 
     expect(box.locator("summary")).to_have_text("Problems", use_inner_text=True)
 
 
+def test_what_was_refused_is_past_after_an_undo(open_page: Open, hull: ah.Hull) -> None:
+    """Also where there was an edit before it to take back: the panel counts no problem."""
+    hand = open_page(hull)
+    box = opened(hand, "Problems")
+    pull(hand, 0.01)
+    hand.ask("(p, name) => p.find(name)", POINT)
+    hand.ask("(p, name) => p.apply('far', [{op: 'move', point: name, y: 400}])", POINT)
+    expect(box.locator("summary")).to_have_text("Problems 1")
+    hand.ask("p => p.undo()")
+    hand.until("p => p.store.history.edits === 0")
+    expect(box.locator("summary")).to_have_text("Problems")
+
+
+def test_the_curve_of_areas_runs_from_one_end_of_the_water_line_to_the_other(
+    open_page: Open, bulk_carrier: ah.Hull
+) -> None:
+    """Aft of AP and forward of FP too, where no station stands; both perpendiculars are marked."""
+    hand = open_page(bulk_carrier.snapshot())
+    box = opened(hand, "Hydrostatics")
+    picture = box.locator("svg")
+    expect(picture).to_contain_text("AP")
+    expect(picture).to_contain_text("FP")
+    told = picture.locator("text").all_text_contents()
+    low, high = (re.search(r"-?[\d.]+", text) for text in told if text.endswith(" m"))
+    assert low is not None
+    assert high is not None
+    assert float(low[0]) < -3.0
+    assert float(high[0]) > bulk_carrier.particulars.length + 5.0
+    ends = picture.locator("polyline.now").get_attribute("points") or ""
+    heights = [float(each.split(",")[1]) for each in ends.split()]
+    assert heights[0] == heights[-1] == max(heights)
+
+
+def test_volume_has_one_word_and_one_symbol(open_page: Open, hull: ah.Hull) -> None:
+    """While a point is pulled, in an answer that is only shown, and among the hydrostatics."""
+    hand = open_page(hull)
+    numbers, edit = (
+        opened(hand, "Hydrostatics"),
+        hand.page.locator("details:has(h2:text-is('Edit'))"),
+    )
+    expect(numbers.locator("tr").first).to_contain_text("∇")
+    expect(numbers.locator("tr").first).to_have_attribute("title", re.compile("volume"))
+    hand.near(POINT)
+    x, y = hand.press(POINT)
+    hand.to(x + 3.0, y)
+    expect(edit).to_contain_text("volume ∇", use_inner_text=True)
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.settled()
+    ops = [{"op": "pull", "point": POINT, "d": 0.005, "radius": [15.0, 5.0]}]
+    hand.ask("(p, ops) => p.panel.proposal.show('pull', ops)", ops)
+    told = hand.page.locator("details:has(h2:text-is('Proposal'))")
+    expect(told).to_contain_text(re.compile(r"volume ∇ [+−±][\d.]+ m³"), use_inner_text=True)
+
+
+def test_the_page_uses_no_word_of_its_program(open_page: Open, hull: ah.Hull) -> None:
+    """Where a point is chosen and held, and where lines are listed that are to be faired."""
+    hand = open_page(hull)
+    words = re.compile(r"(?<!@ )\b(kernel|adopted|noise|turns|sort)\b")  # names are as given
+    box = opened(hand, "Fair")
+    box.get_by_role("button", name="List the waviest lines").click()
+    expect(box.locator("table")).to_contain_text("inflections")
+    expect(box).to_contain_text("Take out waviness of", use_inner_text=True)
+    hand.near(POINT)
+    x, y = hand.press(POINT)
+    hand.to(x + 3.0, y)
+    expect(hand.page.locator(".page > footer")).to_contain_text("computed in", use_inner_text=True)
+    expect(hand.page.locator(".page")).not_to_contain_text(words, use_inner_text=True)
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.settled()
+
+
+def test_points_that_define_a_line_are_told_from_those_on_it(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """Beside the line, and above the table that lists all of them."""
+    hand = open_page(hull)
+    hand.ask("p => p.find('WL 0.5')")
+    curve = hull.lines["WL 0.5"].curves[0]
+    on, define = len(curve.points), hand.ask("p => p.store.curveNow(p.store.selection.curve).n")
+    assert on > define
+    expect(hand.page.locator("details:has(h2:text-is('Curve'))")).to_contain_text(
+        f"{define} define it, {on} lie on it", use_inner_text=True
+    )
+    table = opened(hand, "Points").locator("table")
+    expect(table.locator("caption")).to_contain_text(f"{on} points lie on WL 0.5")
+    expect(table.locator("tbody tr")).to_have_count(on)
+
+
 def test_a_click_on_a_problem_goes_to_its_place(open_page: Open) -> None:
     """All drawings come to it, near enough to see it; it is marked until Esc."""
     hull = fresh(10)

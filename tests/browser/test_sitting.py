@@ -25,11 +25,12 @@ def proposed(hand: Hand, key: str) -> str:
 
 
 def test_an_edit_tells_the_movement_that_its_preview_told(open_page: Open, hull: ah.Hull) -> None:
-    """Of the points, and of the lines between them where that is more: under the same words."""
-    hand, figures = open_page(hull), r"[\d.]+ mm off the hull(?:, [\d.]+ mm between points)?"
+    """Of the hull off itself, and of lines in their planes where that is more: in one wording."""
+    hand = open_page(hull)
+    figures = r"[\d.]+ mm off itself at most(?:, lines up to [\d.]+ mm in their planes)?"
     hand.ask("(p, name) => p.find(name)", POINT)
     before = re.findall(figures, proposed(hand, "n"))
-    assert "between points" in before[0]
+    assert "in their planes" in before[0]
     hand.page.keyboard.press("Enter")
     hand.until("p => p.store.history.edits === 1 && p.store.last")
     expect(panel(hand, "Edit")).to_contain_text(before[0], use_inner_text=True)
@@ -63,7 +64,7 @@ def test_an_edit_that_is_taken_back_is_no_longer_told(open_page: Open, hull: ah.
     hand.page.locator("footer").get_by_text("Taken back: fuller.").wait_for()
     told = panel(hand, "Edit")
     expect(told).to_contain_text("the hull is as it came", use_inner_text=True)
-    expect(told).not_to_contain_text("off the hull", use_inner_text=True)
+    expect(told).not_to_contain_text("off itself", use_inner_text=True)
     hand.page.get_by_role("button", name="Redo").click()
     hand.page.locator("footer").get_by_text("Made again: fuller.").wait_for()
     expect(told).not_to_contain_text("taken back", use_inner_text=True)

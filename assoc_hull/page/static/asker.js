@@ -1,6 +1,7 @@
 // What panels that ask the server have in common.
 
 import {button, make, paragraph} from "./elements.js";
+import {reasonWords} from "./reasons.js";
 
 const PAUSE = 250; // ms: not at every step of a burst of edits
 const LONG = 700; // ms: an answer that takes longer can be stopped
@@ -113,5 +114,5 @@ export class Asker {
   }
 
   /** @param {{id: number, reasons: string[]}} message */
-  refused(message) { return this.problem({id: message.id, text: message.reasons.join("\n")}); }
+  refused(message) { return this.problem({id: message.id, text: reasonWords(message.reasons)}); }
 }

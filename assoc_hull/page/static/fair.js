@@ -17,7 +17,7 @@ export class Fairing extends Offer {
     /** Of which state the list is, and what says that it is old. */
     this.listed = -1;
     this.old = paragraph("");
-    this.slider = make("input", {type: "range", min: "0", max: "100", step: "1", value: "40", ariaLabel: "noise that is taken out, mm", oninput: () => this.#look()});
+    this.slider = make("input", {type: "range", min: "0", max: "100", step: "1", value: "40", ariaLabel: "waviness that is taken out, mm", title: "How far given points may be off the fair line, usually; so much is taken out", oninput: () => this.#look()});
     this.noise = paragraph("");
     this.go = button("Apply", () => this.#make());
     box.append(button("List the waviest lines", () => this.#list()), form(this.noise, this.slider, button("Preview", () => this.#look()), this.go, button("Give up", () => page.dropGhost())), this.words, this.old, this.list);
@@ -30,7 +30,7 @@ export class Fairing extends Offer {
     const {store} = this.page, value = this.#value(), {row} = store.selection, point = row === null ? undefined : store.net?.points.get(row), {radius} = store.tools;
     const where = point && radius ? `around ${point.name}, ${radius[0].toFixed(1)} × ${radius[1].toFixed(1)} m` : "around the chosen point: click one first";
     this.slider.setAttribute("aria-valuetext", millimetres(value));
-    const words = `Take out noise of ${(1e3 * value).toFixed(1)} mm ${where}`;
+    const words = `Take out waviness of ${(1e3 * value).toFixed(1)} mm ${where}`;
     if (this.noise.textContent !== words) this.noise.textContent = words;
     const old = this.listed >= 0 && this.listed !== store.state ? "The list is that of before the last edit: list again." : "";
     if (this.old.textContent !== old) this.old.textContent = old;
@@ -53,7 +53,7 @@ export class Fairing extends Offer {
   #make() {
     const {what, page} = this;
     if (!what) return;
-    this.make(`fair around ${what.name}, noise ${(1e3 * what.noise).toFixed(1)} mm`, [{op: "fair", at: what.name, radius: what.radius, noise: what.noise}]);
+    this.make(`fair around ${what.name}, waviness ${(1e3 * what.noise).toFixed(1)} mm`, [{op: "fair", at: what.name, radius: what.radius, noise: what.noise}]);
     this.words.textContent = "Fairing the hull …";
     page.activeView().upper.focus({preventScroll: true});
   }
@@ -68,7 +68,7 @@ export class Fairing extends Offer {
   /** @param {{lines: Wavy[], unfair: {line: string, point: string, residual: number, expected: number, ratio: number}[], points: {point: string, off: number, score: number, alarm: boolean}[]}} found */
   #show({lines, unfair, points}) {
     this.words.textContent = `${unfair.length ? `${unfair.length} unfair ${unfair.length === 1 ? "place" : "places"}` : "No unfair place"}; ${points.filter(({alarm}) => alarm).length} points look wrong.`;
-    const table = tableOf("The waviest lines: how far a batten springs, outward +, where that is least like the lines beside; times the usual there; inflections", ["line", "springs", "× usual", "turns"]), body = table.createTBody();
+    const table = tableOf("The waviest lines: how far a batten springs, outward +, where that is least like the lines beside; times the usual there; inflections", ["line", "springs", "× usual", "inflections"]), body = table.createTBody();
     for (const each of lines) {
       const row = body.insertRow();
       row.insertCell().append(link(each.line, () => this.#fly(each.at, each.line)));

@@ -1,6 +1,8 @@
 // One gesture: a point is taken hold of, asked to be elsewhere, and let go. One `to` is in flight at a time.
 // Until the true answer comes, what follows is foreseen in proportion, while the error is less than half a pixel.
 
+import {reasonWords} from "./reasons.js";
+
 /** @typedef {Record<string, number>} Wish */
 
 const SLOW = 250; // ms without an answer: the picture says that it is behind
@@ -222,8 +224,9 @@ export class Hand {
     if (!mine && !made) return false;
     this.asked.delete(message.seq);
     const held = this.store.held, row = held?.row ?? this.committing?.row ?? null;
-    const text = message.reasons.join("\n"), place = held ? held.place : row === null ? null : [...(this.store.places.get(row) ?? [])];
-    this.store.refusal = {text, row, place, named: this.store.net?.named(text) ?? []};
+    const text = reasonWords(message.reasons, held?.how === "pull"), place = held ? held.place : row === null ? null : [...(this.store.places.get(row) ?? [])];
+    const all = message.reasons.join("\n");
+    this.store.refusal = {text, all, row, place, named: this.store.net?.named(all) ?? []};
     if (made) {
       this.committing = null;
       this.store.overlay = null;

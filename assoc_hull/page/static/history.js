@@ -2,7 +2,7 @@
 
 import {Asker} from "./asker.js";
 import {button, form, link, make, paragraph} from "./elements.js";
-import {millimetres, signed} from "./units.js";
+import {VOLUME, millimetres, signed} from "./units.js";
 
 /** @typedef {{number: number, parent: number, name: string, way: number, author: string, time: string, normal: number | null}} Step */
 
@@ -57,7 +57,7 @@ export class Past extends Asker {
       this.page.say(this.words.textContent);
     } else {
       const {count, lines, volume, lcb} = message.value;
-      const figures = [volume && `V ${signed(volume[1] - volume[0], 2, "m³")}`, lcb && `LCB ${signed(lcb[1] - lcb[0], 4, "m")}`].filter(Boolean).join(", ");
+      const figures = [volume && `${VOLUME} ${signed(volume[1] - volume[0], 2, "m³")}`, lcb && `LCB ${signed(lcb[1] - lcb[0], 4, "m")}`].filter(Boolean).join(", ");
       this.words.textContent = count ? `Dashed: the hull as it was then. ${count} lines differ${figures ? `; since then ${figures}` : ""}. Most: ${lines.slice(0, 3).map((/** @type {string} */ each) => each.replace(/: (?=[^\d])/, " ").replace(/: ([\d.]+) mm at .+$/, (_, far) => ` by ${millimetres(far / 1e3)}`)).join(", ")}. Esc takes it away.` : "Nothing differs.";
     }
   }
@@ -72,7 +72,7 @@ export class Past extends Asker {
       const title = here ? paragraph(step.name, "now") : link(step.name, () => this.#go(step.number));
       if (here) item.setAttribute("aria-current", "step");
       else title.title = "Bring the hull to the state after this step";
-      item.append(title, paragraph([...names.map((name) => `“${name}”`), note, step.author, clock(step.time), step.normal === null ? "" : millimetres(step.normal)].filter(Boolean).join(" · ")));
+      item.append(title, paragraph([...names.map((name) => `“${name}”`), note, step.author, clock(step.time), step.normal === null ? "" : `hull moved ${millimetres(step.normal)} off itself at most`].filter(Boolean).join(" · ")));
       if (!here) {
         const compare = link("compare with it", () => this.#compare(step.number));
         compare.setAttribute("aria-label", `compare with ${step.name}`);

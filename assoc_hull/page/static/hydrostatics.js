@@ -4,7 +4,7 @@ import {Asker} from "./asker.js";
 import {make, paragraph} from "./elements.js";
 import {signed} from "./units.js";
 
-const SVG = "http://www.w3.org/2000/svg", WIDE = 480, HIGH = 190;
+const SVG = "http://www.w3.org/2000/svg", WIDE = 480, HIGH = 190, BAR = 6;
 /** @type {Record<string, string>} */
 const POWERS = {m2: "m²", m3: "m³", m4: "m⁴", "-": ""};
 /** @typedef {{name: string, unit: string, meaning: string, digits: number, value: number | null, change: number | null, error: number | null}} Value */
@@ -60,7 +60,10 @@ export class Numbers extends Asker {
     const picture = draw("svg", {viewBox: `0 0 ${WIDE} ${HIGH}`, class: "areas", role: "img", "aria-label": `sectional areas, largest ${most.toFixed(1)} square metres`});
     const path = (/** @type {[number[], number[]]} */ [xs, as], /** @type {string} */ name) => picture.append(draw("polyline", {points: xs.map((each, i) => `${px(each).toFixed(1)},${py(as[i]).toFixed(1)}`).join(" "), class: name}));
     picture.append(draw("line", {x1: 6, x2: WIDE - 6, y1: py(0), y2: py(0), class: "axis"}));
+    let last = -Infinity;
     x.forEach((each, i) => {
+      if (px(each) - last < BAR) return;
+      last = px(each);
       const by = 8 * (area[i] - between(then, each)), high = Math.min(Math.abs(py(by) - py(0)), 28);
       if (high > 0.5) picture.append(draw("rect", {x: px(each) - 2, width: 4, y: by > 0 ? py(0) - high : py(0), height: high, class: "bar"}));
     });
@@ -71,9 +74,13 @@ export class Numbers extends Asker {
       text.textContent = words;
       picture.append(text);
     };
+    for (const [name, at] of /** @type {[string, number][]} */ ([["AP", 0], ["FP", this.page.store.net?.particulars.length ?? 0]])) {
+      picture.append(draw("line", {x1: px(at), x2: px(at), y1: 30, y2: py(0) + 6, class: "axis"}));
+      label(px(at), py(0) + 24, name, at > 0 ? "end" : "start");
+    }
     label(6, HIGH - 4, `x ${x0.toFixed(1)} m`, "start");
     label(WIDE - 6, HIGH - 4, `${x1.toFixed(1)} m`, "end");
-    label(6, 18, `${most.toFixed(1)} m²`, "start");
+    label(6, 18, `Sectional areas, largest ${most.toFixed(1)} m²`, "start");
     picture.addEventListener("pointermove", (event) => {
       const box = picture.getBoundingClientRect(), at = x0 + (x1 - x0) * ((/** @type {PointerEvent} */ (event).clientX - box.left) / box.width * WIDE - 6) / (WIDE - 12), clamped = Math.min(Math.max(at, x0), x1);
       const a = between(now, clamped);

@@ -2,12 +2,16 @@
 
 import {pathsOf} from "./view.js";
 import {dotsOf} from "./marks.js";
+import {FLATS} from "./net.js";
 
 /** A name that is to be written: of which line, at its end or where a leader ends. @typedef {{line: Line, name: string, key: string, x: number, y: number, gap: number, colour: string}} Spot */
+/** Where a leader leaves the drawing, and what it costs that it does so there. @typedef {Spot & {knee: number, cost: number}} Knee */
+/** Leaders side by side: the last of them, those before it, what all cost. @typedef {{cost: number, last: Knee | null, before: Row | null}} Row */
 
-const LETTERS = "11px system-ui, sans-serif", HIGH = 12, UPRIGHT = 10, CELL = 3, EDGE = 10; // px
-const COLUMN = 12, LEAST_GAP = 0.2, NEAR_GAP = 5, FREE_GAP = 9, TOLD = 1.5, PLAIN = 4; // px
-const SLANT = 0.4, APART = 7;
+const LETTERS = "11px system-ui, sans-serif", HIGH = 12, UPRIGHT = [10, 12], CELL = 3, EDGE = 10; // px
+const COLUMN = 12, ROW = 24, LEAST_GAP = 0.2, NEAR_GAP = 5, FREE_GAP = 9, TOLD = 1.5, PLAIN = 4; // px
+const SLANT = 0.4, APART = 7, BESIDE = 8;
+const NAMELESS = 600, AGAIN = 200; // what it costs that a line has no name, and none in this half
 const MANY = 0xffff, DOT = 0xfffe; // what a cell holds beside numbers of lines
 
 /** Names that stand already, and the cells of the picture that lines and marks cover. */
@@ -21,6 +25,11 @@ class Places {
     /** The first is the title. @type {Name[]} */
     this.written = [{text: "", box: [from, t, from + w, t + h], colour: "", turned: false}];
     this.left = 0;
+    this.right = Infinity;
+    /** Whether the family of the view's lines is told, and names that stand in such lines. */
+    this.captioned = false;
+    /** @type {{name: Name, line: Line}[]} */
+    this.inline = [];
     /** @type {Map<string, number>} */
     this.widths = new Map();
     this.across = Math.ceil(view.width / CELL) + 1;
@@ -29,7 +38,7 @@ class Places {
     this.numbers = new Map();
     for (const {id, path} of pathsOf(view)) {
       const line = view.store.net?.lineOf(id);
-      if (line) this.#cover(path, this.number(line));
+      if (line) this.cover(path, this.number(line));
     }
     for (const row of dotsOf(view)) this.#dot(view.store.placeOf(row), 4);
     const {marked, selection} = view.store;
@@ -45,7 +54,7 @@ class Places {
   }
 
   /** Marks what a line covers; of long segments only what is seen. @param {Float32Array} path @param {number} number */
-  #cover(path, number) {
+  cover(path, number) {
     const {across, cells, view} = this, room = [view.width - 1, view.height - 1];
     for (let i = 0; i + 3 < path.length; i += 2) {
       const from = [path[i], path[i + 1]], by = [path[i + 2] - from[0], path[i + 3] - from[1]];
@@ -115,7 +124,7 @@ class Places {
 
   /** A name at the edge; where a mark lies on it, farther in along its grid line. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align @param {string} colour */
   edge(text, x, y, align, colour) {
-    const away = align === "center" ? [[x, y], [x, y - 14], [x, y - 28], [x + 14, y], [x - 14, y]] : [0, 1, 2, 3].map((n) => [x + 16 * n, y]);
+    const away = align === "center" ? [[x, y], [x, y - 14], [x, y - 28], [x + 14, y], [x - 14, y]] : [0, 1, 2, 3].map((n) => [x + (align === "right" ? 16 : -16) * n, y]);
     // Letters are less high than their room: a point on the base line is no hindrance to names below it.
     const clear = (/** @type {number[]} */ [l, t, r, b]) => !this.dotted([l, t + 2, r, b - 2]);
     const [u, v] = away.find(([p, q]) => clear(this.box(text, p, q, align))) ?? [x, y];
@@ -123,7 +132,25 @@ class Places {
   }
 
   /** A name that stands upright on its foot. @param {string} text @param {number} x @param {number} y @param {string} colour */
-  upright(text, x, y, colour) { this.written.push({text, box: [x - UPRIGHT / 2, y - this.wide(text), x + UPRIGHT / 2, y], colour, turned: true}); }
+  upright(text, x, y, colour) { this.written.push({text, box: [x - UPRIGHT[0] / 2, y - this.wide(text), x + UPRIGHT[0] / 2, y], colour, turned: true}); }
+
+  /** The family of the lines that the view shows, once. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align @param {string} colour */
+  caption(text, x, y, align, colour) {
+    this.captioned ||= this.put(text, x, y, align, colour);
+    return this.captioned;
+  }
+
+  /** Where no row of names tells the family, a name in a line does. */
+  captionInline() {
+    for (const {name, line} of this.captioned ? [] : this.inline) {
+      const [l, t, r, b] = name.box, wide = this.wide(line.name) / 2, box = [(l + r) / 2 - wide, t, (l + r) / 2 + wide, b];
+      name.box = [-9, -9, -9, -9]; // it does not stand in its own way
+      this.captioned = this.free(box) && !this.dotted(box) && box[0] > this.left + 4 && box[2] < this.right - 4;
+      name.box = this.captioned ? box : [l, t, r, b];
+      if (this.captioned) name.text = line.name;
+      if (this.captioned) return;
+    }
+  }
 
   /** Writes all names, over lines and leaders. */
   write() {
@@ -158,13 +185,15 @@ export function drawLabels(view, g, ink) {
   const places = new Places(g, view, ink), {x0, x1, y1, z0, z1} = view.box(), ship = net.particulars, body = view.kind === "body";
   const of = (/** @type {string} */ family) => net.lines.filter((line) => line.family === family && line.offset !== null && line.axis !== null);
   const left = places.left = Math.max(view.at(body ? 0 : x0, y1, 0, -1)[0] - 8, 40);
+  // Leaders of buttocks come out at the stern, where names of the grid would stand.
+  const [end, way] = view.steep ? /** @type {[number, CanvasTextAlign]} */ ([places.right = Math.min(view.at(x1, 0, 0, 1)[0] + 8, view.width - 38), "left"]) : /** @type {[number, CanvasTextAlign]} */ ([left, "right"]);
   const foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
   places.edge(body ? "BTK" : "ST", left, foot + 12, "right", ink.soft); // first, or a label has its place
   if (body) above(places, "sections");
   if (view.kind !== "half") {
-    places.edge("DWL", left, view.at(0, 0, ship.draught, 1)[1], "right", ink.water);
-    places.edge("BL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
-    column(places, "WL", of("waterlines"), (z) => view.at(0, 0, z, 1)[1]);
+    places.edge("DWL", end, view.at(0, 0, ship.draught, 1)[1], way, ink.water);
+    places.edge("BL", end, view.at(0, 0, 0, 1)[1], way, ink.soft);
+    column(places, "WL", of("waterlines"), end, way, (z) => view.at(0, 0, z, 1)[1]);
   }
   if (body) {
     const names = [...of("buttocks")].reverse();
@@ -177,27 +206,32 @@ export function drawLabels(view, g, ink) {
     for (const {name, x} of all) places.edge(name, x, foot + 12, "center", ink.soft);
     if (view.kind === "half") {
       places.edge("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
-      column(places, "BTK", of("buttocks"), (y) => view.at(0, y, 0, 1)[1]);
+      column(places, "BTK", of("buttocks"), left, "right", (y) => view.at(0, y, 0, 1)[1]);
     }
-    if (view.steep) {
-      above(places, "buttocks");
-      return places.write();
-    }
-    const written = new Set(), spots = spotsOf(places);
-    within(places, spots, written, 0);
-    // Where the top of the drawing is out of the picture, names above it would lie on lines.
-    if (view.at(x1, y1, z1, 1)[1] > EDGE + 20) led(places, spots, written);
-    else within(places, spots, written, NEAR_GAP);
+    if (view.steep) above(places, "buttocks");
+    else beside(places);
   }
+  borders(places);
+  places.captionInline();
   places.write();
 }
 
-/** Names of the grid at the left, with their family above the highest. @param {Places} places @param {string} family @param {Line[]} lines @param {(offset: number) => number} at */
-function column(places, family, lines, at) {
+/** Lines that run along the ship are named in themselves, or by leaders from above. @param {Places} places */
+function beside(places) {
+  const {view} = places, {x1, y1, z1} = view.box(), written = new Set(), spots = spotsOf(places);
+  within(places, spots, written, 0);
+  // Where the top of the drawing is out of the picture, names above it would lie on lines.
+  if (view.at(x1, y1, z1, 1)[1] > EDGE + 20) led(places, spots, written);
+  else within(places, spots, written, NEAR_GAP);
+  fanned(places, spots, written);
+}
+
+/** Names of the grid at a side, with their family above the highest. @param {Places} places @param {string} family @param {Line[]} lines @param {number} x @param {CanvasTextAlign} align @param {(offset: number) => number} at */
+function column(places, family, lines, x, align, at) {
   const {ink} = places, rows = lines.map(({name, offset}) => ({name: short(name), y: at(offset ?? 0)}));
   // One at the edge leaves no room for the family.
-  const written = rows.filter(({name, y}) => y >= EDGE + HIGH + 1 && places.edge(name, places.left, y, "right", ink.soft)).map(({y}) => y);
-  if (written.length) places.put(family, places.left, Math.min(...written) - HIGH - 1, "right", ink.soft);
+  const written = rows.filter(({name, y}) => y >= EDGE + HIGH + 1 && places.edge(name, x, y, align, ink.soft)).map(({y}) => y);
+  if (written.length) places.put(family, x, Math.min(...written) - HIGH - 1, align, ink.soft);
 }
 
 /** Lines that run upward stand above their ends, as on paper; those that end where others do along themselves, if there is room. @param {Places} places @param {string} family */
@@ -224,14 +258,15 @@ function above(places, family) {
   ends.forEach((each, i) => each.gap = Math.min(each.x - (ends[i - 1]?.x ?? -Infinity), (ends[i + 1]?.x ?? Infinity) - each.x));
   const written = new Set(), spots = spotsOf(places), alone = ends.filter(({gap}) => gap > TOLD);
   const long = Math.max(...ends.map(({name}) => places.wide(name)), 0), top = Math.max(view.at(0, 0, view.box().z1, 1)[1] - 14, long + 6);
-  const room = Math.floor((view.width - 8) / UPRIGHT);
+  const room = Math.floor((view.width - 8) / UPRIGHT[0]);
   for (const {key} of alone) written.add(key);
   within(places, spots, written, 0);
   // Those that are named nowhere share the end of others, as on paper.
   const fan = [...alone, ...ends.filter(({key}) => !written.has(key))].sort((p, q) => half(p.name) - half(q.name)).slice(0, room).sort(order);
   for (const {key} of alone) if (!fan.some((each) => each.key === key)) written.delete(key);
   for (const {key} of fan) written.add(key);
-  const xs = spread(fan.map(({x}) => x), fan.map(() => UPRIGHT), 4, view.width - 4);
+  // Names side by side are told apart better than they stand, where there is room.
+  const pitch = Math.max(Math.min((view.width - 8) / fan.length, UPRIGHT[1]), UPRIGHT[0]), xs = spread(fan.map(({x}) => x), fan.map(() => pitch), 4, view.width - 4);
   fan.forEach(({name, x, y, colour}, i) => {
     leader(places, [[x, y - 1], [xs[i], top]], colour, false);
     places.upright(name, xs[i], top - 2, colour);
@@ -239,34 +274,41 @@ function above(places, family) {
   // The family stands at the left, or in the widest gap.
   const gap = xs.slice(1).map((x, i) => ({x: (x + xs[i]) / 2, wide: x - xs[i]})).reduce((p, q) => q.wide > p.wide ? q : p, {x: 0, wide: 0});
   const title = fan[0]?.line.name.split(" ")[0] ?? "";
-  if (fan.length && !places.put(title, xs[0] - 10, top - 8, "right", ink[family])) places.put(title, gap.x, top - 8, "center", ink[family]);
+  if (fan.length) places.caption(title, xs[0] - 10, top - 8, "right", ink[family]) || places.caption(title, gap.x, top - 8, "center", ink[family]);
   within(places, spots, written, FREE_GAP);
+  fanned(places, spots, written);
 }
 
-/** Where lines of the view's own family meet upright lines, and how far their neighbours are there, px. @param {Places} places @returns {Spot[]} */
+/** Where lines meet upright lines, and steep ones level lines, and how far their neighbours are there, px. @param {Places} places @returns {Spot[]} */
 function spotsOf(places) {
   const {view, ink} = places, {net} = view.store, body = view.kind === "body", from = Math.max(places.left, 0), n = Math.floor((view.width - from) / COLUMN);
-  const middle = view.at(body ? 0 : view.midship, 0, 0, 1)[0];
-  /** @type {{id: number, y: number}[][]} */
-  const met = Array.from({length: Math.max(n, 0)}, () => []);
-  /** @type {Spot[]} */
-  const found = [];
+  const middle = view.at(body ? 0 : view.midship, 0, 0, 1)[0], high = Math.floor(view.height / ROW);
+  /** @typedef {{id: number, at: number, own: boolean}} Met */
+  const met = Array.from({length: Math.max(n, 0)}, () => /** @type {Met[]} */ ([])), level = Array.from({length: Math.max(high, 0)}, () => /** @type {Met[]} */ ([]));
   for (const {id, path} of pathsOf(view)) for (let i = 0; i + 3 < path.length; i += 2) {
-    const a = path[i], b = path[i + 2], last = Math.min((Math.max(a, b) - from) / COLUMN - 1, n - 1);
+    const [a, p, b, q] = path.subarray(i, i + 4), steep = Math.abs(q - p) > Math.abs(b - a);
+    const last = Math.min((Math.max(a, b) - from) / COLUMN - 1, n - 1), lowest = Math.min(Math.max(p, q) / ROW - 1, high - 1);
     for (let k = Math.max(Math.ceil((Math.min(a, b) - from) / COLUMN - 1), 0); k <= last; k++) {
       const x = from + COLUMN * (k + 1);
-      if (a <= x !== b <= x) met[k].push({id, y: path[i + 1] + (path[i + 3] - path[i + 1]) * (x - a) / (b - a)});
+      if (a <= x !== b <= x) met[k].push({id, at: p + (q - p) * (x - a) / (b - a), own: true});
+    }
+    for (let k = Math.max(Math.ceil(Math.min(p, q) / ROW - 1), 0); k <= lowest; k++) {
+      const y = ROW * (k + 1);
+      if (p <= y !== q <= y) level[k].push({id, at: a + (b - a) * (y - p) / (q - p), own: steep});
     }
   }
-  for (const [k, column] of met.entries()) {
-    const x = from + COLUMN * (k + 1);
+  /** @type {Spot[]} */
+  const found = [];
+  const add = (/** @type {number} */ id, /** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ gap) => {
+    const line = net?.lineOf(id);
     // Over the centre plane it would name aft and fore body.
-    if (body && Math.abs(x - middle) < 4) continue;
-    column.sort((p, q) => p.y - q.y).forEach(({id, y}, i) => {
-      const line = net?.lineOf(id), gap = Math.min(y - (column[i - 1]?.y ?? -Infinity), (column[i + 1]?.y ?? Infinity) - y);
-      if (line && line.family !== "boundary" && y > 0 && y < view.height) found.push({line, name: short(line.name), key: line.name + (body || x > middle), x, y, gap: Math.min(gap, 40), colour: ink[line.family] || ink.ink});
-    });
-  }
+    if (!line || x < from || x > view.width || y < 0 || y > view.height || body && Math.abs(x - middle) < 4) return;
+    found.push({line, name: short(line.name), key: line.name + (body || x > middle), x, y, gap: Math.min(gap, 40), colour: ink[line.family] || ink.ink});
+  };
+  const gaps = (/** @type {Met[]} */ row, /** @type {(each: Met, gap: number) => void} */ give) => row.sort((p, q) => p.at - q.at).forEach((each, i) => give(each, Math.min(each.at - (row[i - 1]?.at ?? -Infinity), (row[i + 1]?.at ?? Infinity) - each.at)));
+  met.forEach((row, k) => gaps(row, ({id, at}, gap) => add(id, from + COLUMN * (k + 1), at, gap)));
+  // A name is wider than it is high.
+  level.forEach((row, k) => gaps(row, ({id, at, own}, gap) => { if (own) add(id, at, ROW * (k + 1), gap / 2); }));
   return found.sort((p, q) => q.gap - p.gap);
 }
 
@@ -274,69 +316,144 @@ function spotsOf(places) {
 function within(places, spots, written, least) {
   const {view} = places, middle = view.kind === "body" ? view.at(0, 0, 0, 1)[0] : -Infinity;
   for (const {line, name, key, x, y, gap, colour} of spots) {
-    if (written.has(key) || gap <= least) continue;
-    const off = x - middle, align = Math.abs(off) > 20 ? "center" : off < 0 ? "right" : "left", box = places.box(name, x, y, align);
-    if (box[0] < places.left + 4) continue; // there names of the grid stand
-    if (least ? places.dotted(box) : !places.clear(box, places.number(line))) continue;
-    if (places.put(name, x, y, align, colour)) written.add(key);
+    if (line.family === "boundary" || written.has(key) || gap <= least) continue;
+    const off = x - middle, align = Math.abs(off) > 20 ? "center" : off < 0 ? "right" : "left";
+    // Beside the line where its points leave no room in it.
+    const ways = /** @type {[number, CanvasTextAlign][]} */ ([[x, align], ...least ? [[x + BESIDE, "left"], [x - BESIDE, "right"]] : []]);
+    const found = ways.find(([u, way]) => {
+      const box = places.box(name, u, y, way);
+      if (box[0] < places.left + 4 || box[2] > places.right - 4) return false; // there names of the grid stand
+      return (least && u === x ? !places.dotted(box) : places.clear(box, places.number(line))) && places.free(box);
+    });
+    if (!found || !places.put(name, found[0], y, found[1], colour)) continue;
+    written.add(key);
+    places.inline.push({name: places.written[places.written.length - 1], line});
   }
+}
+
+/** Lines so near one another that no name fits in, as seen from near: their names stand in order where nothing is drawn. @param {Places} places @param {Spot[]} spots @param {Set<string>} written */
+function fanned(places, spots, written) {
+  const {view} = places, named = (/** @type {Spot} */ {line}) => written.has(`${line.name}true`) || written.has(`${line.name}false`);
+  /** @type {Map<number, Spot[]>} */
+  const cuts = new Map();
+  for (const each of spots) if (each.line.family !== "boundary" && !named(each) && each.gap > LEAST_GAP) cuts.set(each.x, [...cuts.get(each.x) ?? [], each]);
+  const worth = (/** @type {Spot[]} */ all) => all.length + Math.min(...all.map(({gap}) => gap), 9) / 10;
+  const [cut] = [...cuts.values()].filter((all) => new Set(all.map(({line}) => line)).size === all.length).sort((p, q) => worth(q) - worth(p));
+  if (!cut) return;
+  cut.sort((p, q) => p.y - q.y);
+  const ys = spread(cut.map(({y}) => y), cut.map(() => HIGH), 4, view.height - 34), wide = Math.max(...cut.map(({name}) => places.wide(name)));
+  const rooms = Array.from({length: Math.ceil(view.width / COLUMN)}, (_, k) => k * COLUMN + wide / 2).map((x) => {
+    const free = cut.map(({name}, i) => places.box(name, x, ys[i], "center")).map((box) => box[0] > places.left + 4 && box[2] < places.right - 4 && places.clear(box, 0) && places.free(box));
+    return {x, free, cost: Math.abs(x - cut[0].x) - 200 * free.filter(Boolean).length};
+  }).filter(({x, free}) => free.some(Boolean) && Math.abs(x - cut[0].x) > wide);
+  const room = rooms.reduce((p, q) => q.cost < p.cost ? q : p, rooms[0]);
+  if (room) cut.forEach(({name, key, x, y, colour}, i) => {
+    if (!room.free[i] || !places.put(name, room.x, ys[i], "center", colour)) return;
+    written.add(key);
+    places.inline.push({name: places.written[places.written.length - 1], line: cut[i].line});
+    leader(places, [[x, y], [room.x + (x < room.x ? -1 : 1) * (places.wide(name) / 2 + 2), ys[i]]], colour, true);
+  });
+}
+
+/** Deck edge, transom and flats are named once, in themselves or at their side, where that covers nothing else. @param {Places} places */
+function borders(places) {
+  const {view} = places, named = new Set(["profile"]); // that is the title of its view
+  for (const {line, name, x, y, colour} of spotsOf(places)) {
+    if (line.family !== "boundary" || named.has(name)) continue;
+    const sides = /** @type {[number, number, CanvasTextAlign][]} */ ([[x, y, "center"], [x, y - 9, "center"], [x, y + 9, "center"], [x + 6, y, "left"], [x - 6, y, "right"]]);
+    const free = sides.find(([u, v, align]) => {
+      const box = places.box(name, u, v, align);
+      return box[0] >= places.left + 4 && box[2] <= places.right - 4 && places.clear(box, places.number(line)) && places.free(box);
+    });
+    // A flat that is seen from its edge is none.
+    if (!free || line.boundary === FLATS && edgeOn(view, line)) named.add(free ? name : "");
+    else if (places.put(name, ...free, colour)) named.add(name);
+  }
+}
+
+/** Whether a line is seen as no more than a straight one along the picture. @param {View} view @param {Line} line */
+function edgeOn(view, line) {
+  const paths = pathsOf(view).filter(({id}) => line.curves.includes(id)).flatMap(({path}) => [...path]);
+  return [0, 1].some((j) => {
+    const along = paths.filter((_, i) => i % 2 === j);
+    return Math.max(...along) - Math.min(...along) < 2 * HIGH;
+  });
 }
 
 /** The others stand above the drawing in two rows, with leaders. @param {Places} places @param {Spot[]} spots @param {Set<string>} written */
 function led(places, spots, written) {
   const {view} = places, {x1, y1, z1} = view.box(), top = Math.max(view.at(x1, y1, z1, 1)[1] - 6, EDGE + 24), far = view.width - 4;
-  const wide = (/** @type {Spot} */ {name}) => places.wide(name), widest = Math.max(...spots.map(wide), 0), room = widest / 2 + 5;
+  const wide = (/** @type {Spot} */ {name}) => places.wide(name), widest = Math.max(...spots.filter(({line}) => line.family !== "boundary").map(wide), 0), room = Math.ceil(widest / 2 + 5);
   const chosen = knees(places, spots, written, top, room), xs = spread(chosen.map(({knee}) => knee), chosen.map(() => room), places.left + room / 2, far - widest / 2 + room / 2);
   let low = -Infinity;
   chosen.forEach((each, i) => {
     const up = xs[i] - wide(each) / 2 < low + 6 ? 12 : 0;
     if (!up) low = xs[i] + wide(each) / 2;
-    if (!i) places.put(each.line.name.split(" ")[0], xs[i] - wide(each) / 2 - 7, top - 14 - up, "right", each.colour);
     if (places.put(each.name, xs[i], top - 14 - up, "center", each.colour)) leader(places, [[each.x, each.y], [each.knee, top], [xs[i], top - 8 - up]], each.colour, true);
   });
+  const [first] = chosen, last = chosen.at(-1);
+  if (!first || !last) return;
+  const family = first.line.name.split(" ")[0], ends = /** @type {[number, CanvasTextAlign][]} */ ([[xs[0] - wide(first) / 2 - 7, "right"], [(xs.at(-1) ?? 0) + wide(last) / 2 + 7, "left"]]);
+  const gaps = xs.slice(1).map((x, i) => ({x: (x + xs[i]) / 2, wide: x - xs[i]})).sort((p, q) => q.wide - p.wide);
+  for (const [x, align] of ends.concat(gaps.slice(0, 1).map((gap) => [gap.x, "center"]))) if (places.caption(family, x, top - 14, align, first.colour)) return;
 }
 
-/** Where leaders end on lines without a name, and where they leave the drawing: all slant, so that none crosses another. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} top @param {number} room */
+/** Where leaders end on lines without a name, and where they leave the drawing: all of a half slant alike and stand in the order of the lines, so that none crosses another. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} top @param {number} room @returns {Knee[]} */
 function knees(places, spots, written, top, room) {
   const {view} = places, middle = view.at(view.midship, 0, 0, 1)[0], way = view.kind === "half" ? -1 : 1, far = view.width - 4;
-  const named = (/** @type {string} */ line) => written.has(`${line}true`) || written.has(`${line}false`);
-  /** @type {(Spot & {knee: number})[]} */
-  let chosen = [];
-  /** @param {Spot[]} given @param {boolean} once @param {number} turn what it costs to leave the order of the lines */
-  const take = (given, once, turn) => {
-    /** @type {Map<string, Spot[]>} */
-    const of = new Map(), last = [places.left, far];
-    for (const each of given) {
-      const key = once ? each.line.name : each.key, known = of.get(key);
-      if (known) known.push(each);
-      else of.set(key, [each]);
+  /** @type {Knee[]} */
+  const chosen = [];
+  for (const aft of [true, false]) {
+    /** @type {Map<Line, Knee[]>} */
+    const of = new Map();
+    for (const each of spots) {
+      const {line, key, x, y, gap} = each, knee = x + (aft ? -1 : 1) * SLANT * (y - top), twice = written.has(`${line.name}${aft}`);
+      if (line.family === "boundary" || x < middle !== aft || y <= top || written.has(key) || gap <= (twice ? PLAIN : LEAST_GAP) || knee < places.left || knee > far) continue;
+      // Near, and told from its neighbours.
+      const cost = 0.6 * (y - top) + 25 * Math.max(PLAIN - gap, 0) + 6 * Math.max(2 * PLAIN - gap, 0) - (twice ? AGAIN : NAMELESS), known = of.get(line);
+      if (known) known.push({...each, knee, cost});
+      else of.set(line, [{...each, knee, cost}]);
     }
-    for (const all of [...of.values()].sort(([p], [q]) => way * ((p.line.offset ?? 0) - (q.line.offset ?? 0)))) {
-      if ((chosen.length + 1) * room > far - places.left) break;
-      const best = all.map((each) => {
-        const aft = each.x < middle, knee = Math.min(Math.max(each.x + (aft ? -1 : 1) * SLANT * (each.y - top), places.left), far);
-        const free = Math.min(...chosen.map((other) => Math.abs(other.knee - knee)), room), turned = aft ? knee < last[0] : knee > last[1];
-        // Near, told from its neighbours, with room for the name, in the order of the lines.
-        return {...each, knee, aft, cost: free < APART ? Infinity : 0.6 * (each.y - top) + 25 * Math.max(PLAIN - each.gap, 0) + 6 * Math.max(2 * PLAIN - each.gap, 0) + 2 * (room - free) + (turned ? turn : 0)};
-      }).reduce((p, q) => q.cost < p.cost ? q : p);
-      if (best.cost === Infinity) continue;
-      last[best.aft ? 0 : 1] = best.knee;
-      chosen.push(best);
-      written.add(best.key);
-    }
-  };
-  // First the lines that are named nowhere, then those that are in one half only.
-  for (const once of [true, false]) take(spots.filter((each) => !written.has(each.key) && each.y > top && each.gap > (once ? LEAST_GAP : PLAIN) && !(once && named(each.line.name))), once, 150);
-  // Which have room is known: now all in one order; what has lost its room by that leaves it.
-  const before = chosen, wanted = (/** @type {Set<string>} */ keys) => spots.filter(({key, y, gap}) => keys.has(key) && y > top && gap > LEAST_GAP);
-  chosen = [];
-  take(wanted(new Set(before.map(({key}) => key))), false, 1e4);
-  take(wanted(new Set(before.map(({key}) => key).filter((each) => !chosen.some(({key}) => key === each)))), false, 150);
-  return (chosen.length < before.length ? before : chosen).sort((p, q) => p.knee - q.knee);
+    const lines = [...of].sort(([p], [q]) => (aft ? way : -way) * ((p.offset ?? 0) - (q.offset ?? 0))).map(([, all]) => all);
+    const found = inOrder(lines, far, room, Math.floor((far - places.left) / room) - chosen.length);
+    for (const {key} of found) written.add(key);
+    chosen.push(...found);
+  }
+  return chosen;
+}
+
+/** Of each line one leader or none: knees grow in the order of the lines, at the least cost. @param {Knee[][]} lines from the left @param {number} far @param {number} room @param {number} most */
+function inOrder(lines, far, room, most) {
+  /** @type {Row} */
+  const none = {cost: 0, last: null, before: null};
+  /** The cheapest row whose last leader leaves at a pixel. @type {Row[]} */
+  const best = [];
+  for (const spots of lines) {
+    let low = none;
+    const least = Array.from({length: far + 1}, (_, k) => low = best[k] && best[k].cost < low.cost ? best[k] : low);
+    const rows = spots.map((last) => {
+      const at = Math.floor(last.knee);
+      let before = least[at - room] ?? none, cost = before.cost;
+      for (let k = Math.max(at - room + 1, 0); k <= at - APART; k++) {
+        const near = (best[k]?.cost ?? Infinity) + 4 * (room - at + k);
+        if (near < cost) [before, cost] = [best[k], near];
+      }
+      return {at, row: {cost: cost + last.cost, last, before}};
+    });
+    // A line has one leader: its own are no neighbours.
+    for (const {at, row} of rows) if (!best[at] || row.cost < best[at].cost) best[at] = row;
+  }
+  /** @type {Knee[]} */
+  const found = [];
+  for (let row = best.reduce((p, q) => q.cost < p.cost ? q : p, none); row.last && row.before; row = row.before) found.unshift(row.last);
+  while (found.length > Math.max(most, 0)) found.splice(found.reduce((worst, {cost}, i) => cost > found[worst].cost ? i : worst, 0), 1);
+  return found;
 }
 
 /** @param {Places} places @param {number[][]} way @param {string} colour @param {boolean} dot */
-function leader({g}, way, colour, dot) {
+function leader(places, way, colour, dot) {
+  const {g} = places;
+  places.cover(new Float32Array(way.flat()), MANY);
   g.strokeStyle = g.fillStyle = colour;
   g.lineWidth = 0.7;
   g.globalAlpha = 0.75;

@@ -27,7 +27,7 @@ export class PointTable {
     // What all have in common stands above them: the panel is narrow.
     const {axis, offset} = store.net.lineOf(id) ?? {axis: null, offset: null}, plane = axis === null || offset === null ? "" : `, all at ${"xyz"[axis]} = ${offset.toFixed(3)}`;
     this.axes = [0, 1, 2].filter((i) => !plane || i !== axis);
-    const table = tableOf(`Points of ${store.net.curveName(id)}, m${plane}`, ["point", ...this.axes.map((i) => "xyz"[i])]), body = table.createTBody();
+    const table = tableOf(`${store.net.rowsOf.get(id)?.length ?? 0} points lie on ${store.net.curveName(id)}, m${plane}; ${store.curves.get(id)?.n ?? 0} of them define it`, ["point", ...this.axes.map((i) => "xyz"[i])]), body = table.createTBody();
     for (const row of alongCurve(store, id)) this.#row(body.insertRow(), row, id);
     this.box.replaceChildren(table);
   }
@@ -99,6 +99,7 @@ export class Problems extends Asker {
     const rows = found.slice(0, 100).map((finding) => link(finding.text, () => this.page.goTo(finding.object, finding.place)));
     const name = refused?.row == null ? "" : store.net?.points.get(refused.row)?.name ?? "", first = refused?.text.split("\n")[0] ?? "";
     const last = refused ? [paragraph("Refused last:"), name ? link(first, () => this.page.goTo(name, refused.place)) : paragraph(first)] : [];
+    if (refused) last[1].title = refused.all;
     this.list.replaceChildren(...words, ...rows, ...last);
   }
 }

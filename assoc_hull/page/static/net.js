@@ -6,7 +6,9 @@
 
 export const CROSSING = 0, PLACED = 1, ADOPTED = 2;
 export const SHARED = 0, WATCHED = 3;
-const SORTS = ["crossing", "placed point", "adopted point"];
+/** Of a boundary: it encloses a flat. */
+export const FLATS = 1;
+const SORTS = ["crossing", "point placed by hand", "point of the lines as given"];
 const KINDS = ["smooth", "tangent", "knuckle"];
 
 /** A name as it is compared: spaces, capitals, a comma for the point and zeros at the ends do not matter. @param {string} name */

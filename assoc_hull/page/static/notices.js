@@ -1,10 +1,10 @@
 // What the page says: a refusal beside its point; in live regions, once a second at most; in its foot.
 
 import {make} from "./elements.js";
-import {signed} from "./units.js";
+import {VOLUME, signed} from "./units.js";
 
 export const READ = 6000; // ms
-const WIDE = 440, REASONS = 3;
+const WIDE = 440;
 
 /** @param {Page} page */
 export function placeBubble(page) {
@@ -15,8 +15,7 @@ export function placeBubble(page) {
     bubble = make("div", {className: "bubble"});
   }
   if (bubble.parentElement !== view.element) view.element.append(bubble);
-  const words = shortened(refusal.text);
-  if (bubble.textContent !== words) bubble.textContent = words;
+  if (bubble.textContent !== refusal.text) bubble.textContent = refusal.text;
   const [x, y] = refusal.place && view.kind !== "wire" ? view.atPlace(refusal.place) : [view.width / 2, 40];
   const wide = Math.min(WIDE, view.width - 16);
   bubble.style.maxWidth = `${wide}px`;
@@ -28,12 +27,6 @@ export function placeBubble(page) {
   bubble.style.maxHeight = `${Math.max((below ? view.height - y : y) - apart - 8, 60)}px`; // its first words are never cut
   bubble.style.top = below ? `${Math.min(Math.max(y + apart, 28), view.height - 60)}px` : "auto";
   bubble.style.bottom = below ? "auto" : `${Math.min(Math.max(view.height - y + apart, 8), view.height - 60)}px`;
-}
-
-/** A pull that goes much too far folds every line: the first reasons tell enough. @param {string} text */
-function shortened(text) {
-  const reasons = text.split("\n"), more = reasons.length - REASONS;
-  return more > 0 ? [...reasons.slice(0, REASONS), `and ${more} more ${more === 1 ? "reason" : "reasons"}`].join("\n") : text;
 }
 
 const PAUSE = 1000; // ms
@@ -64,7 +57,7 @@ export class Speaker {
     if (!held || !overlay || held.amount === null || now - this.last < PAUSE) return;
     this.last = now;
     const name = net?.points.get(held.row)?.name ?? "";
-    this.say(`${name}, ${held.how} ${(1e3 * held.amount).toFixed(1)} millimetres, ${overlay.frame.curves.size} curves follow, volume about ${signed(overlay.frame.volume, 1, "cubic metres")}`);
+    this.say(`${name}, ${held.how} ${(1e3 * held.amount).toFixed(1)} millimetres, ${overlay.frame.curves.size} curves follow, ${VOLUME} about ${signed(overlay.frame.volume, 1, "cubic metres")}`);
   }
 }
 
@@ -85,5 +78,6 @@ export function writeFoot(page) {
   // Across the ship, unless the point goes along it only: lengths may be compressed.
   const view = page.activeView(), pixel = 1e3 / (held?.how === "move" && held.free === "x" ? view.axis.s : view.sy) * ((held ?? page.store.tools).fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
   const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
-  page.figures.textContent = overlay && held ? [gear, radius, held.waiting ? "catching up" : `kernel ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.net?.points.get(store.theirs.row)?.name ?? "a point"}` : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
+  const drawn = store.magnified && store.show.movement ? `movement is drawn × ${store.magnified.toLocaleString("en")}` : "";
+  page.figures.textContent = overlay && held ? [gear, radius, drawn, held.waiting ? "catching up" : `computed in ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.net?.points.get(store.theirs.row)?.name ?? "a point"}` : drawn ? drawn : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
 }

@@ -13,7 +13,8 @@ import {Shaper} from "./propose.js";
 import {Store} from "./store.js";
 import {View} from "./view.js";
 import {count} from "./units.js";
-import {farthestDrawn, paintHull, paintOverlay} from "./paint.js";
+import {farthestDrawn, magnify, paintHull, paintOverlay} from "./paint.js";
+import {reasonWords} from "./reasons.js";
 import {makeBar, openPalette} from "./bar.js";
 import {choose, find, goTo, stepCurve, stepPoint} from "./ways.js";
 
@@ -149,8 +150,8 @@ export class Page {
 
   /** An edit that was typed is refused: said at the point. @param {any} message */
   #refusedHere(message) {
-    const {store} = this, row = store.selection.row, text = message.reasons.join("\n");
-    store.refusal = {text, row, place: row === null ? null : [...(store.places.get(row) ?? [])], named: store.net?.named(text) ?? []};
+    const {store} = this, row = store.selection.row, all = message.reasons.join("\n"), text = reasonWords(message.reasons);
+    store.refusal = {text, all, row, place: row === null ? null : [...(store.places.get(row) ?? [])], named: store.net?.named(all) ?? []};
     store.changed("overlay", "panel");
   }
 
@@ -226,6 +227,9 @@ export class Page {
     for (const view of other) if (view.fitted) view.fit();
     // The two low views share their lengths.
     else view.settle(view.kind !== "half" || !this.views.profile.shown);
+    const moved = store.overlay?.frame ?? store.ghost ?? store.theirs?.frame;
+    if (moved) magnify(store, moved, this.hand.scale());
+    else store.magnified = 0;
     for (const view of Object.values(this.views)) {
       if (!view.shown) continue;
       if (view.stale.hull) paintHull(view, this.ink);
@@ -351,6 +355,7 @@ export class Page {
     this.keys.finish();
     this.keys.forget();
     this.back = way === "undo";
+    this.panel.problems.refusal = null; // who goes back has done with it
     if (this.back && this.shower && !this.applying) {
       this.dropGhost();
       return this.say("The ghost is gone; nothing was made. Undo takes back the last edit.");

@@ -3,11 +3,11 @@
 import {combScale, evaluate, inflections, middleMovement, normalMovement, teeth} from "./hermite.js";
 import {diamond, drawHandles} from "./marks.js";
 import {drawLabels} from "./labels.js";
+import {FLATS} from "./net.js";
 import {drawBeside, drawPicture} from "./files.js";
 
 /** @typedef {Record<string, string>} Ink */
 
-const FLATS = 1;
 const LEAST_MOVED = 1e-4; // m
 
 /** @param {View} view @param {Ink} ink */
@@ -128,9 +128,7 @@ export function paintOverlay(view, ink) {
   if (overlay) drawMoved(view, g, ink, overlay.frame, overlay.predicted);
   const chosen = selection.curve;
   if (hover.curve !== null && hover.curve !== chosen) stroke(view, g, hover.curve, ink.ink, 1.6);
-  if (chosen !== null) {
-    stroke(view, g, chosen, ink.ink, view.kind === "wire" ? 1.4 : 2);
-  }
+  if (chosen !== null) stroke(view, g, chosen, ink.ink, view.kind === "wire" ? 1.4 : 2);
   view.note.textContent = noteOf(view); // the factor is known only now
   if (view.kind === "wire") return;
   if (store.show.combs) for (const id of combed(view)) drawComb(view, g, ink, id, id === chosen);
@@ -143,17 +141,17 @@ export function paintOverlay(view, ink) {
 function noteOf(view) {
   const words = [];
   if (view.kind === "wire") return "";
-  if ((view.store.overlay || view.store.ghost || view.store.theirs?.frame) && view.store.show.movement && view.magnified) words.push(`movement × ${view.magnified.toLocaleString("en")}`);
   const tall = view.sy / view.axis.s;
-  if (tall > 1.01) words.push(`${view.kind === "half" ? "breadths" : "heights"} × ${tall.toFixed(1)}`);
+  if (tall > 1.01) words.push(`compressed × ${tall.toFixed()}`);
   return words.join(" · ");
 }
 
 /** @param {View} view @param {CanvasRenderingContext2D} g @param {number} id @param {string} colour @param {number} width */
 function stroke(view, g, id, colour, width) {
   const line = view.store.net?.lineOf(id), c = view.store.curveNow(id);
-  if (!line || !c || !view.shows(line)) return;
+  if (!line || !c) return;
   g.beginPath();
+  // A waterline is a straight one in the body plan, and is looked for there, too.
   view.trace(g, c, line);
   g.strokeStyle = colour;
   g.lineWidth = width;
@@ -163,10 +161,6 @@ function stroke(view, g, id, colour, width) {
 /** A variant, or what follows the hand of another, dashed. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame */
 function drawGhost(view, g, ink, frame) {
   const {net, curves, show, overlay} = view.store, moved = movementOf(frame, curves), between = movementOf(frame, curves, true);
-  const seen = (/** @type {number} */ id) => {
-    const line = net?.lineOf(id);
-    return line !== undefined && view.shows(line);
-  };
   g.beginPath();
   for (const [id, c] of frame.curves) {
     const line = net?.lineOf(id), by = moved.get(id);
@@ -182,7 +176,7 @@ function drawGhost(view, g, ink, frame) {
   g.stroke();
   g.globalAlpha = 1;
   g.setLineDash([]);
-  if (show.movement && !overlay && view.kind !== "wire") drawSpikes(view, g, ink, frame, moved, Math.max(farthest(frame, curves, seen), 1e-3));
+  if (show.movement && !overlay && view.kind !== "wire") drawSpikes(view, g, ink, frame, moved);
 }
 
 /** Stretches that moved, in three strengths by how far, and the movement itself, magnified. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame @param {boolean} predicted */
@@ -217,14 +211,17 @@ function drawMoved(view, g, ink, frame, predicted) {
   }
   g.setLineDash([]);
   g.globalAlpha = 1;
-  if (show.movement && view.kind !== "wire") drawSpikes(view, g, ink, frame, moved, top);
+  if (show.movement && view.kind !== "wire") drawSpikes(view, g, ink, frame, moved);
 }
 
-/** @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame @param {Map<number, Float64Array | null>} moved @param {number} top */
-function drawSpikes(view, g, ink, frame, moved, top) {
-  const {net, curves} = view.store;
-  view.magnified = magnification(view.magnified, top * view.sy);
-  let any = false;
+/** The factor by which movements are drawn, one for all views. @param {Store} store @param {Frame} frame @param {number} scale px for 1 m, of the view that is seen largest */
+export function magnify(store, frame, scale) {
+  store.magnified = magnification(store.magnified, Math.max(farthest(frame, store.curves), 1e-3) * scale);
+}
+
+/** @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame @param {Map<number, Float64Array | null>} moved */
+function drawSpikes(view, g, ink, frame, moved) {
+  const {net, curves, magnified} = view.store;
   g.beginPath();
   for (const [id, now] of frame.curves) {
     const line = net?.lineOf(id), by = moved.get(id), old = curves.get(id);
@@ -239,13 +236,11 @@ function drawSpikes(view, g, ink, frame, moved, top) {
         const [x, y] = view.at(px, py, pz, side), [dx, dy] = view.seen(way, side);
         if (Math.hypot(x - last[0], y - last[1]) < 7) continue; // a hedge shows nothing
         last = [x, y];
-        any = true;
         g.moveTo(x, y);
-        g.lineTo(x + view.magnified * dx, y + view.magnified * dy);
+        g.lineTo(x + magnified * dx, y + magnified * dy);
       }
     }
   }
-  if (!any) view.magnified = 0; // nothing is seen to move: no factor is told
   g.strokeStyle = ink.spike;
   g.lineWidth = 1.3;
   g.stroke();
@@ -285,8 +280,8 @@ function drawComb(view, g, ink, id, strong) {
       const x = view.axis.o + view.axis.s * s * tooth.x, y = view.oy - view.sy * tooth.y;
       // Away from the centre of curvature, square to the curve as it is seen.
       const nx = s * view.sy * tooth.ty, ny = view.axis.s * tooth.tx, size = Math.hypot(nx, ny) || 1;
-      const want = scale * tooth.bend, long = Math.min(Math.max(want, -cap), cap);
-      return {x, y, X: x + nx / size * long, Y: y + ny / size * long, capped: want !== long};
+      const want = scale * tooth.bend, long = Math.min(Math.max(want, -cap), cap) * within(x, y, nx / size * Math.sign(want), ny / size * Math.sign(want), Math.min(Math.abs(want), cap), view);
+      return {x, y, X: x + nx / size * long, Y: y + ny / size * long, capped: Math.abs(want - long) > 0.5};
     });
     g.globalAlpha = strong ? 0.5 : 0.28;
     g.lineWidth = 0.8;
@@ -313,6 +308,15 @@ function drawComb(view, g, ink, id, strong) {
     }
     g.fillStyle = ink.comb;
   }
+}
+
+const EDGE = 3; // px: a tooth that is cut ends so far within the view
+
+/** How much of a tooth lies within the view: all of it, if its foot is out of sight. @param {number} x @param {number} y @param {number} dx @param {number} dy @param {number} long px @param {View} view */
+function within(x, y, dx, dy, long, {width, height}) {
+  if (x < EDGE || y < EDGE || x > width - EDGE || y > height - EDGE) return 1;
+  const room = (/** @type {number} */ at, /** @type {number} */ by, /** @type {number} */ whole) => by > 0 ? (whole - EDGE - at) / by : by < 0 ? (EDGE - at) / by : Infinity;
+  return Math.min(1, Math.min(room(x, dx, width), room(y, dy, height)) / Math.max(long, 1e-9));
 }
 
 /** One scale for each curve and view, of the published shape: a comb must not breathe with the drag. @param {View} view @param {number} id */

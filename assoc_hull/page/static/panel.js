@@ -5,7 +5,7 @@ import {ACTIONS, keyWords} from "./actions.js";
 import {Numbers} from "./hydrostatics.js";
 import {Past, WhyPanel} from "./history.js";
 import {arcLength, inflections} from "./hermite.js";
-import {farthest} from "./paint.js";
+import {farthest, farthestDrawn} from "./paint.js";
 import {Beside, Files} from "./files.js";
 import {Fairing} from "./fair.js";
 import {Vary} from "./vary.js";
@@ -13,7 +13,7 @@ import {LineChoice, PointTable, Problems} from "./lists.js";
 import {PointActs, roleChoice} from "./point_acts.js";
 import {Proposal, farWords} from "./propose.js";
 import {CROSSING} from "./net.js";
-import {count, millimetres, signed, typedNumber} from "./units.js";
+import {VOLUME, count, millimetres, signed, typedNumber} from "./units.js";
 
 const AXES = ["x", "y", "z"];
 const WAYS = ["forward of AP", "from the centre plane", "above the base line"];
@@ -168,7 +168,7 @@ export class Panel {
       if (moved) moved.textContent = this.#movedWords(row);
       return;
     }
-    const role = store.net.roleWords(point), moved = make("span", {className: "moved", textContent: this.#movedWords(row)});
+    const role = store.net.roleWords(point), moved = make("span", {className: "moved", title: "From where it lay, off the hull and along it together", textContent: this.#movedWords(row)});
     // What is typed stays when somebody else has edited the hull meanwhile.
     const old = this.shownRow === row ? this.fields : [], at = old.findIndex((field) => field === document.activeElement);
     this.fields = AXES.map((name, i) => this.#field(point, name, i, place[i]));
@@ -179,11 +179,11 @@ export class Panel {
     });
     this.#table(box, [
       ["name", point.label || point.name],
-      ["sort", store.net.sortWords(point)],
+      ["kind", store.net.sortWords(point)],
       ["role", point.driver >= 0 ? link(role, () => store.select(null, point.driver)) : role],
-      ["passes", store.net.kindWords(point)],
+      ["line passes", store.net.kindWords(point)],
       ...AXES.map((name, i) => /** @type {[string, Node]} */ ([`${name}, m`, this.fields[i]])),
-      ["moved", moved],
+      ["point moved", moved],
     ]);
     this.pointForm.querySelector("select")?.remove();
     if (point.sort === CROSSING) this.pointForm.append(roleChoice(this.page, point));
@@ -245,24 +245,23 @@ export class Panel {
       ["family", line.family],
       ...(line.offset === null ? [] : [/** @type {[string, string]} */ (["plane", `${AXES[line.axis ?? 0]} = ${line.offset.toFixed(3)} m`])]),
       ["length", `${arcLength(now).toFixed(3)} m`],
-      ["points", `${now.n}`],
+      ["points", `${now.n} define it, ${net.rowsOf.get(id)?.length ?? 0} lie on it`],
       ["inflections", count],
-      ["moved", by === null ? "–" : `${millimetres(by)}, normal to it`],
+      ["line moved", by === null ? "–" : `${millimetres(by)} at most, in its plane`],
     ]);
   }
 
   #edit() {
     const {store} = this.page, box = this.parts.Edit, {overlay, held, last} = store;
-    if (held?.refused) return this.#table(box, [["asked", held.amount === null ? "–" : millimetres(held.amount)], ["refused", "the reason stands beside the point; nothing follows beyond what was taken last"]]);
+    if (held?.refused) return this.#table(box, [["asked of the point", held.amount === null ? "–" : millimetres(held.amount)], ["refused", "the reason stands beside the point; lines stay where they could follow last"]]);
     if (overlay && (held || this.page.hand.committing)) {
       const {frame} = overlay;
       return this.#table(box, [
-        ["asked", held?.amount == null ? "–" : millimetres(held.amount)],
+        ["asked of the point", held?.amount == null ? "–" : millimetres(held.amount)],
         ["follow", `${count(frame.curves.size, "curve")}, ${count(frame.places.size, "point")}`],
-        ["farthest", `${millimetres(frame.normal)} off the hull`],
-        ["volume", `about ${signed(frame.volume, 2, "m³")}`],
+        ["hull moves", farWords(frame.normal, farthestDrawn(frame, store.curves)) || "nowhere"],
+        [VOLUME, `about ${signed(frame.volume, 2, "m³")}`],
         ["LCB", `about ${signed(frame.lcb, 4, "m")}`],
-        ["kernel", `${frame.ms.toFixed(1)} ms`],
       ]);
     }
     if (!last) return this.#words(box, "Drag a point: all lines that follow move with it. Esc takes it back.");
@@ -273,7 +272,7 @@ export class Panel {
       ["last", last.name],
       ...(last.author ? [/** @type {[string, string]} */ (["made by", last.author])] : []),
       ["follow", count(last.relofted, "curve")],
-      ["farthest", farWords(last.normal, last.drawn) || "no point moves"],
+      ["hull moved", farWords(last.normal, last.drawn) || "nowhere"],
       ["inflections", last.inflections ? `${last.inflections} new` : "none new"],
       ...last.notes.slice(0, 4).map((/** @type {string} */ note) => /** @type {[string, string]} */ (["note", note])),
     ]);

@@ -3,22 +3,23 @@
 import {Asker} from "./asker.js";
 import {button, form} from "./elements.js";
 import {farthestDrawn} from "./paint.js";
-import {millimetres, signed} from "./units.js";
+import {reasonWords} from "./reasons.js";
+import {VOLUME, millimetres, signed} from "./units.js";
 
 /** @typedef {{normal: number | null, moved: number, volume_change: number | null, lcb_change: number | null, notes?: string[], refused: string[]}} Cost */
 
-/** How far points move off the hull, and lines between them, where that is farther, m. @param {number | null} normal @param {number} drawn */
+/** How far the hull moves at its points, off itself, and its lines in their planes, where that is more: where it is nearly along a plane, much more, m. @param {number | null} normal @param {number} drawn */
 export function farWords(normal, drawn) {
-  if ((normal ?? 0) < 1e-9) return drawn < 1e-4 ? "" : `${millimetres(drawn)} between points, which stay`;
-  return `${millimetres(normal ?? 0)} off the hull${drawn > (normal ?? 0) + 1e-4 ? `, ${millimetres(drawn)} between points` : ""}`;
+  if ((normal ?? 0) < 1e-9) return drawn < 1e-4 ? "" : `${millimetres(drawn)} at most, between points, which stay`;
+  return `${millimetres(normal ?? 0)} off itself at most${drawn > (normal ?? 0) + 1e-4 ? `, lines up to ${millimetres(drawn)} in their planes` : ""}`;
 }
 
 /** What the ghost that is shown would do. @param {Cost} cost @param {Store} store */
 export function costWords({normal, volume_change: volume, lcb_change: lcb}, {ghost, curves}) {
   const far = farWords(normal, ghost ? farthestDrawn(ghost, curves) : 0);
   return [
-    far ? `largest movement ${far}` : "nothing moves",
-    volume === null || volume === undefined ? "" : `V ${signed(volume, 2, "m³")}`,
+    far ? `hull moves ${far}` : "nothing moves",
+    volume === null || volume === undefined ? "" : `${VOLUME} ${signed(volume, 2, "m³")}`,
     lcb === null || lcb === undefined ? "" : `LCB ${signed(lcb, 4, "m")}`,
   ].filter(Boolean).join(", ");
 }
@@ -46,7 +47,7 @@ export class Offer extends Asker {
   /** Tells what it would do; it can be made unless it is refused. @param {Cost} cost @param {string} words */
   tell({refused}, words) {
     this.ready = !refused.length;
-    this.words.textContent = this.ready ? words : `${refused.join("\n")}\nNothing is changed.`;
+    this.words.textContent = this.ready ? words : `${reasonWords(refused)}\nNothing is changed.`;
     this.page.say(this.words.textContent);
     this.page.store.changed("panel");
   }

@@ -2,7 +2,7 @@
 
 /** @typedef {"hull" | "overlay" | "panel"} Stale */
 /** @typedef {{frame: Frame, amount: number | null, predicted: boolean}} Overlay */
-/** @typedef {{text: string, row: number | null, place: number[] | null, named: number[]}} Refusal */
+/** @typedef {{text: string, all: string, row: number | null, place: number[] | null, named: number[]}} Refusal */
 /**
  * What the hand holds: `place` is where the pointer wants the point, `start` where it lay.
  * @typedef {{row: number, how: "pull" | "move", place: number[], start: number[], free: string, normal: number[] | null, radius: number[] | null, way: number[] | null, amount: number | null, held: boolean, refused: boolean, waiting: boolean, fine: boolean}} Held
@@ -29,6 +29,8 @@ export class Store {
     this.held = null;
     /** @type {Refusal | null} */
     this.refusal = null;
+    /** How many times larger movements are drawn than they are. */
+    this.magnified = 0;
     this.selection = {curve: /** @type {number | null} */ (null), row: /** @type {number | null} */ (null)};
     this.hover = {curve: /** @type {number | null} */ (null), row: /** @type {number | null} */ (null)};
     this.tools = {how: /** @type {"pull" | "move"} */ ("pull"), radius: /** @type {number[] | null} */ (null), fine: false, fair: false, fairShapes: true, pinned: false};

@@ -16,3 +16,5 @@ export const signed = (value, digits, unit) => {
   const sign = Number(size) === 0 ? "±" : value < 0 ? "−" : "+";
   return `${sign}${size} ${unit}`;
 };
+/** One word and one symbol wherever it is told. */
+export const VOLUME = "volume ∇";

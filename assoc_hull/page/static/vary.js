@@ -2,7 +2,7 @@
 
 import {button, form, make, paragraph} from "./elements.js";
 import {Offer, costWords} from "./propose.js";
-import {typedNumber} from "./units.js";
+import {VOLUME, typedNumber} from "./units.js";
 
 /** @typedef {{name: string, unit: string, meaning: string, value: number | null, low: number | null, high: number | null, least: number | null, most: number | null, reason: string | null}} Parameter */
 
@@ -115,7 +115,7 @@ export class Vary extends Offer {
       return;
     }
     const {volume, lcb} = message.value;
-    this.tell({...message.value, refused: []}, `Ghost: ${costWords(message.value, this.page.store)}; then V ${volume.toFixed(2)} m³, LCB ${lcb.toFixed(3)} m. Nothing is changed yet: Enter or Apply makes it.`);
+    this.tell({...message.value, refused: []}, `Ghost: ${costWords(message.value, this.page.store)}; then ${VOLUME} ${volume.toFixed(2)} m³, LCB ${lcb.toFixed(3)} m. Nothing is changed yet: Enter or Apply makes it.`);
     this.words.scrollIntoView({block: "nearest"});
   }
 

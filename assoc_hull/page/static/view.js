@@ -51,7 +51,6 @@ export class View {
     this.picture = null;
     /** Names on the drawing; the first is the title. @type {Name[]} */
     this.written = [];
-    this.magnified = 0;
     /** @type {Map<string, number>} */
     this.scales = new Map();
   }
@@ -100,7 +99,7 @@ export class View {
   get steep() { return this.kind === "profile" && this.store.squeeze > 2; }
 
   /** Left, above, right, below, px; names that stand upright need more. */
-  get margins() { return this.steep ? [46, 54, 16, 34] : MARGINS[this.kind]; }
+  get margins() { return this.steep ? [46, 54, 46, 34] : MARGINS[this.kind]; }
 
   get midship() { return (this.store.net?.particulars.length ?? 0) / 2; }
 
@@ -231,7 +230,7 @@ export class View {
       view.fitted = true;
       view.touch();
     });
-    const [u0, u1] = this.extent(), [left, , right] = this.margins;
+    const [u0, u1] = this.extent(), [left, right] = [0, 2].map((i) => Math.max(...both.map(({margins}) => margins[i])));
     this.axis.o = (left + this.width - right) / 2 - this.axis.s * (u0 + u1) / 2;
   }
 
