@@ -53,8 +53,8 @@ from assoc_hull.model.line_source import LineSource
 __all__ = [
     "BoundaryCurve",
     "BoundaryMarks",
+    "KnuckleEnds",
     "OutlineCorner",
-    "Outlines",
     "draw_borders",
     "draw_boundary_curve",
     "draw_flats",
@@ -149,7 +149,7 @@ class OutlineCorner:
 
 
 @attrs.frozen(eq=False)
-class Outlines:
+class KnuckleEnds:
     """Where knuckle lines may end: corners of outlines, and curves of the profile by their name."""
 
     corners: Sequence[OutlineCorner] = ()
@@ -258,7 +258,7 @@ def draw_knuckles(
     knuckles: list[KnuckleTrace],
     rules: FeatureRules,
     tolerance: float,
-    outlines: Outlines | None = None,
+    outlines: KnuckleEnds | None = None,
 ) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
     """Draw knuckle lines, and let every line that crosses one have its corner there.
 
@@ -270,7 +270,7 @@ def draw_knuckles(
     sources: list[LineSource] = []
     borders: list[BoundaryCurve] = []
     known = [line for each in knuckles for line in _known(each, rules)]
-    left = outlines or Outlines()
+    left = outlines or KnuckleEnds()
     for course in _knuckle_courses(known, tolerance):
         name = f"knuckle {len(borders) + 1}"
         reached, corners = _to_outlines(course, parts, left, rules)
@@ -294,7 +294,7 @@ def draw_knuckles(
 def _to_outlines(
     course: BoundaryMarks,
     parts: Sequence[PieceFeatures],
-    outlines: Outlines,
+    outlines: KnuckleEnds,
     rules: FeatureRules,
 ) -> tuple[BoundaryMarks, list[OutlineCorner]]:
     """Lead a knuckle line on to corners of outlines or the stem, and give where it ends."""
@@ -533,7 +533,7 @@ def draw_borders(
     knuckles: list[KnuckleTrace],
     rules: FeatureRules,
     tolerance: float,
-    outlines: Outlines | None = None,
+    outlines: KnuckleEnds | None = None,
 ) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
     """Draw knuckle lines and the borders of flats; lines have their corners and tangents there.
 

@@ -20,8 +20,8 @@ from assoc_hull.io.lines.slices import ASSOCIATIONS, GapJoin, Gaps, HullSlices, 
 from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
 from assoc_hull.io.slicing.boundary_curves import (
     BoundaryCurve,
+    KnuckleEnds,
     OutlineCorner,
-    Outlines,
     draw_borders,
     loft_source,
 )
@@ -232,7 +232,7 @@ def _full_size_sources(
     for source, report in rims:
         borders.setdefault(source.name, []).append(Rim(loft_source(source), report.residual))
     parts = [snap_ends(p, borders, 0.5 * allowed) for p in parts if p.line.group != "boundary"]
-    outlines = _outlines([source for source, _ in rims])
+    outlines = _knuckle_ends([source for source, _ in rims])
     parts, curves, drawn = draw_borders(parts, knuckles, wanted, allowed, outlines)
     if not parts:
         raise BadInputError(
@@ -251,7 +251,7 @@ def _full_size_sources(
     return sources, reports, knuckles, allowed, drawn
 
 
-def _outlines(rims: list[LineSource]) -> Outlines:
+def _knuckle_ends(rims: list[LineSource]) -> KnuckleEnds:
     """Give the places of boundary curves at which a knuckle line may end."""
     corners = [
         OutlineCorner(rim.name, place)
@@ -262,7 +262,7 @@ def _outlines(rims: list[LineSource]) -> Outlines:
     profile = [
         (rim.name, loft_source(rim)) for rim in rims if np.abs(rim.points[:, 1]).max() <= _CRUMB
     ]
-    return Outlines(corners, profile)
+    return KnuckleEnds(corners, profile)
 
 
 def _links(groups: set[str]) -> list[Association]:
