@@ -91,6 +91,64 @@ def raked_barge(path: Path) -> ah.Hull:
     return ah.read(written(lines, path / "raked.csv"), draught=2.5, ap=0.0, deck="closed")
 
 
+def ro_pax(path: Path) -> ah.Hull:
+    """Read a ship of 121 m with round bilges, and a knuckle from the transom to the raked stem.
+
+    Below it frames are superellipses, upright at the knuckle, above it they flare. Waterlines
+    at 0.7, 1.5, 3 and 5 m.
+    """
+
+    def part(x: float, begin: float, end: float) -> float:
+        return float(np.clip((x - begin) / (end - begin), 0.0, 1.0))
+
+    def keel(x: float) -> float:
+        return 4.0 * part(x, 30.0, 0.0) ** 2 + 7.0 * part(x, 108.0, 118.0) ** 2
+
+    def knuckle(x: float) -> Place:
+        aft, fore = part(x, 30.0, 0.0), part(x, 65.0, 118.0)
+        return x, 10.0 - 1.5 * aft**2 - 10.0 * fore**2.2, 7.0
+
+    def deck(x: float) -> Place:
+        return x, 12.0 - 1.5 * part(x, 30.0, 0.0) ** 2 - 12.0 * part(x, 70.0, 121.0) ** 2.6, 11.0
+
+    def power_of(x: float) -> float:
+        return 5.0 - 2.8 * part(x, 60.0, 118.0)
+
+    def level(z: float) -> list[Place]:
+        begin = 30.0 * (1.0 - min(z / 4.0, 1.0) ** 0.5)
+        places = []
+        for x in np.linspace(begin, 108.0 + 10.0 * (z / 7.0) ** 0.5, 241).tolist():
+            low, (_, half, top) = keel(x), knuckle(x)
+            down, power = min((top - z) / (top - low), 1.0), power_of(x)
+            places.append((x, half * float(1.0 - down**power) ** (1.0 / power), z))
+        return places
+
+    def rib(x: float) -> list[Place]:
+        low, (_, half, top) = keel(x), knuckle(x)
+        power = power_of(x)
+        # Even steps of the breadth up to the middle of the bilge, of the height beyond.
+        even = np.linspace(0.0, 0.5 ** (1.0 / power), 31)
+        other = (1.0 - even**power) ** (1.0 / power)
+        across, down = np.r_[even, other[-2::-1]], np.r_[other, even[-2::-1]]
+        at = zip((half * across).tolist(), (top - (top - low) * down).tolist(), strict=True)
+        return [*((x, y, z) for y, z in at), deck(x)]
+
+    stations = [2.0, 5.0, 9.0, 14.0, *np.arange(20.0, 96.0, 5.0).tolist()]
+    stations += [100.0, 104.0, 108.0, 111.0, 113.5, 115.5]
+    stem = [(float(x), 0.0, keel(float(x))) for x in np.linspace(108.0, 118.0, 41)]
+    stern = [(float(x), 0.0, keel(float(x))) for x in np.linspace(0.0, 30.0, 61)]
+    lines: list[tuple[str, list[Place]]] = [(f"ST {x:g}", rib(x)) for x in stations]
+    lines += [(f"WL {z:g}", level(z)) for z in (0.7, 1.5, 3.0, 5.0)]
+    lines += [
+        ("profile", [*stern, *stem, (121.0, 0.0, 11.0)]),
+        ("deck edge", [deck(float(x)) for x in np.linspace(0.0, 121.0, 243)]),
+        ("transom", rib(0.0)),
+    ]
+    return ah.read(
+        written(lines, path / "ropax.csv"), draught=5.0, ap=0.0, deck="closed", accept=True
+    )
+
+
 def half_chined(path: Path) -> ah.Hull:
     """Read a hull of 60 m with flat ends: round frames aft, forward frames with a chine."""
     turn = np.linspace(0.0, 0.5 * np.pi, 25)

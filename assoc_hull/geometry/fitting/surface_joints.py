@@ -6,7 +6,7 @@ A master hands on its border row and the derivative across it, as a `Strip`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import Self
 
 import attrs
@@ -214,6 +214,7 @@ def join_to_masters(
     extent: Extent,
     strips: Mapping[str, Strip],
     held: Callable[[FloatArray, FloatArray], HeldControls] | None = None,
+    creases: Collection[str] = (),
 ) -> SurfaceFit:
     """Cut a fit and join it to its masters.
 
@@ -230,6 +231,8 @@ def join_to_masters(
         What masters hand over, each with the parameter along it that the fit has there.
     held : callable, optional
         What else is held, for breaks in u and in v.
+    creases : collection of sides
+        Where only the border is taken over: tangent planes there are the surface's own.
 
     Returns
     -------
@@ -254,6 +257,8 @@ def join_to_masters(
     if held is not None:
         holds = holds.and_(held(*breaks))
     for side, strip in on.items():
+        if side in creases:
+            continue
         holds = _behind(holds, side, strip, part.surface, clamped_knots(breaks[side[0] == "v"]))
     return solve_once(name, part.samples, breaks, part.smoothing, holds)
 

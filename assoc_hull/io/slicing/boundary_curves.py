@@ -13,6 +13,7 @@ from itertools import pairwise
 
 import attrs
 import numpy as np
+from numpy.polynomial.polynomial import polyfit, polyval
 
 from assoc_hull.geometry.curves import (
     CurveData,
@@ -32,8 +33,8 @@ from assoc_hull.geometry.polylines.operations import (
     runs_where,
 )
 from assoc_hull.geometry.polylines.straight_runs import Onset
-from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.geometry.splines.distance import closest_points, closest_points_each
+from assoc_hull.geometry.splines.evaluation import derivative, sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.io.lines.slices import AXES
@@ -52,6 +53,7 @@ from assoc_hull.model.line_source import LineSource
 __all__ = [
     "BoundaryCurve",
     "BoundaryMarks",
+    "KnuckleEnds",
     "OutlineCorner",
     "draw_borders",
     "draw_boundary_curve",
@@ -144,6 +146,14 @@ class OutlineCorner:
 
     name: str
     place: FloatArray
+
+
+@attrs.frozen(eq=False)
+class KnuckleEnds:
+    """Where knuckle lines may end: corners of outlines, and curves of the profile by their name."""
+
+    corners: Sequence[OutlineCorner] = ()
+    profile: Sequence[tuple[str, SplineBatch]] = ()
 
 
 def draw_boundary_curve(
@@ -248,19 +258,19 @@ def draw_knuckles(
     knuckles: list[KnuckleTrace],
     rules: FeatureRules,
     tolerance: float,
-    outlines: Sequence[OutlineCorner] = (),
+    outlines: KnuckleEnds | None = None,
 ) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
     """Draw knuckle lines, and let every line that crosses one have its corner there.
 
     `knuckles` were found on lines of single groups; `tolerance` (m) is that of adoption. A knuckle
-    line ends at the corner of an outline that it leads to. Gives the pieces in their order, the
-    sources of the boundary curves, and a record of each.
+    line ends at the corner of an outline, or at the stem, that it leads to. Gives the pieces in
+    their order, the sources of the boundary curves, and a record of each.
     """
     out = list(parts)
     sources: list[LineSource] = []
     borders: list[BoundaryCurve] = []
     known = [line for each in knuckles for line in _known(each, rules)]
-    left = list(outlines)
+    left = outlines or KnuckleEnds()
     for course in _knuckle_courses(known, tolerance):
         name = f"knuckle {len(borders) + 1}"
         reached, corners = _to_outlines(course, parts, left, rules)
@@ -274,7 +284,9 @@ def draw_knuckles(
                 out = split
                 sources.append(source)
                 borders.append(attrs.evolve(border, taken=taken))
-                left = [each for each in left if drawn is course or each not in corners]
+                if drawn is not course:
+                    free = [each for each in left.corners if each not in corners]
+                    left = attrs.evolve(left, corners=free)
                 break
     return out, sources, borders
 
@@ -282,16 +294,17 @@ def draw_knuckles(
 def _to_outlines(
     course: BoundaryMarks,
     parts: Sequence[PieceFeatures],
-    outlines: Sequence[OutlineCorner],
+    outlines: KnuckleEnds,
     rules: FeatureRules,
 ) -> tuple[BoundaryMarks, list[OutlineCorner]]:
-    """Lead a knuckle line on to corners of outlines, and give those that it ends at."""
+    """Lead a knuckle line on to corners of outlines or the stem, and give where it ends."""
     found = course
     corners: list[OutlineCorner] = []
     for _ in range(2):
         found = found.reversed()
         before, last = found.places[-2:]
-        corner = _corner_ahead(before, last, parts, outlines, rules)
+        corner = _corner_ahead(before, last, parts, outlines.corners, rules)
+        corner = corner or _stem_ahead(found.places, parts, outlines.profile, rules)
         if corner is not None:
             corners.append(corner)
             found = BoundaryMarks(
@@ -313,10 +326,7 @@ def _corner_ahead(
     step = last - before
     axis = int(np.argmax(np.abs(step)))
     way = float(np.sign(step[axis]))
-    ahead = [
-        way * (part.line.offset - last[axis]) for part in parts if AXES[part.line.group] == axis
-    ]
-    passed = min((each for each in ahead if each > _SAME), default=np.inf)
+    passed = _next_line(last, axis, way, parts)
     found: list[tuple[float, int]] = []
     for i, corner in enumerate(outlines):
         gap = way * float(corner.place[axis] - last[axis])
@@ -326,6 +336,57 @@ def _corner_ahead(
         if 0.0 < gap <= passed and away < rules.chain.drift * gap + rules.chain.slack:
             found.append((away, i))
     return outlines[min(found)[1]] if found else None
+
+
+def _next_line(last: FloatArray, axis: int, way: float, parts: Sequence[PieceFeatures]) -> float:
+    """Give how far it is to the next line across an axis, m; infinite if there is none."""
+    ahead = [
+        way * (part.line.offset - last[axis]) for part in parts if AXES[part.line.group] == axis
+    ]
+    return min((each for each in ahead if each > _SAME), default=np.inf)
+
+
+_STEPS = 2.0
+"""A knuckle line is led on to the stem by no more than so many steps from line to line."""
+
+
+def _stem_ahead(
+    places: FloatArray,
+    parts: Sequence[PieceFeatures],
+    profile: Sequence[tuple[str, SplineBatch]],
+    rules: FeatureRules,
+) -> OutlineCorner | None:
+    """Give the place of the profile that a knuckle line leads to, with no line between.
+
+    It is led on along the parabola through its last three places, or straight from two.
+    """
+    last, step = places[-1], places[-1] - places[-2]
+    way, reach = float(np.sign(step[0])), _STEPS * float(np.abs(step[0]))
+    if reach <= _SAME:
+        return None
+    known = places[-3:] if (np.diff(places[-3:, 0]) * way > 0.0).all() else places[-2:]
+    # From the last place on: powers of large coordinates would lose digits.
+    course = polyfit(known[:, 0] - last[0], known, len(known) - 1)
+    most = min(_next_line(last, 0, way, parts), reach)
+
+    def led(place: FloatArray) -> FloatArray:
+        return np.asarray(polyval(place[..., 0] - last[0], course).T)
+
+    best, least = None, rules.chain.slack
+    for name, spline in profile:
+        place = np.asarray(sample(spline, _PROFILE)[1]).reshape(-1, 3)
+        gap = way * (place[:, 0] - last[0])
+        away = np.linalg.norm(led(place) - place, axis=1)
+        away[(gap <= 0.0) | (gap > most)] = np.inf
+        near = place[int(away.argmin())]
+        if away.min() < least:
+            near = closest_points_each(spline, np.zeros(1, np.int64), led(near)[None])[1][0]
+            best, least = OutlineCorner(name, near), float(away.min())
+    return best
+
+
+_PROFILE = 64
+"""Places between two points of the profile at which a knuckle line is looked for."""
 
 
 def _plane_with(
@@ -472,7 +533,7 @@ def draw_borders(
     knuckles: list[KnuckleTrace],
     rules: FeatureRules,
     tolerance: float,
-    outlines: Sequence[OutlineCorner] = (),
+    outlines: KnuckleEnds | None = None,
 ) -> tuple[list[PieceFeatures], list[LineSource], list[BoundaryCurve]]:
     """Draw knuckle lines and the borders of flats; lines have their corners and tangents there.
 

@@ -20,6 +20,7 @@ from assoc_hull.io.lines.slices import ASSOCIATIONS, GapJoin, Gaps, HullSlices, 
 from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
 from assoc_hull.io.slicing.boundary_curves import (
     BoundaryCurve,
+    KnuckleEnds,
     OutlineCorner,
     draw_borders,
     loft_source,
@@ -231,8 +232,8 @@ def _full_size_sources(
     for source, report in rims:
         borders.setdefault(source.name, []).append(Rim(loft_source(source), report.residual))
     parts = [snap_ends(p, borders, 0.5 * allowed) for p in parts if p.line.group != "boundary"]
-    corners = _outline_corners([source for source, _ in rims])
-    parts, curves, drawn = draw_borders(parts, knuckles, wanted, allowed, corners)
+    outlines = _knuckle_ends([source for source, _ in rims])
+    parts, curves, drawn = draw_borders(parts, knuckles, wanted, allowed, outlines)
     if not parts:
         raise BadInputError(
             "no section, waterline or buttock is left to be adopted", f"in {slices.name}",
@@ -250,14 +251,18 @@ def _full_size_sources(
     return sources, reports, knuckles, allowed, drawn
 
 
-def _outline_corners(rims: list[LineSource]) -> list[OutlineCorner]:
-    """Give the corners of boundary curves off the centre plane: a knuckle line may end there."""
-    return [
+def _knuckle_ends(rims: list[LineSource]) -> KnuckleEnds:
+    """Give the places of boundary curves at which a knuckle line may end."""
+    corners = [
         OutlineCorner(rim.name, place)
         for rim in rims
         for place in rim.points[1:-1][rim.kind[1:-1] == PointKind.KNUCKLE]
         if place[1] > _CRUMB
     ]
+    profile = [
+        (rim.name, loft_source(rim)) for rim in rims if np.abs(rim.points[:, 1]).max() <= _CRUMB
+    ]
+    return KnuckleEnds(corners, profile)
 
 
 def _links(groups: set[str]) -> list[Association]:

@@ -240,10 +240,17 @@ def label_lines(
     return written
 
 
+_UPRIGHT = 0.02
+"""A line that goes aside by less than this part of its height stands along its own leader."""
+
+
 def label_above(
     sheet: Sheet, lines: Sequence[LabelledLine], wanted: set[str], at: float, name: str
 ) -> None:
     """Write labels for which lines have no room in a row above a view, each with a leader.
+
+    It ends in a dot on the line; that of an upright line, as of a transom in the half-breadth plan,
+    runs on from its upper end, without one.
 
     Parameters
     ----------
@@ -263,19 +270,24 @@ def label_above(
     anchors: list[FloatArray] = []
     words: list[str] = []
     names: list[str] = []
+    dotted: list[FloatArray] = []
     for line, course, free in zip(lines, courses, room, strict=True):
         if line.label not in wanted or line.label in words:
             continue
         used = np.array([anchor[0] for anchor in anchors])
         near = np.abs(course[:, :1] - used).min(axis=1, initial=np.inf) < apart
         off = np.abs(np.linspace(-0.25, 0.75, len(course)))  # a quarter of the way, if all is one
-        anchors.append(course[int(np.argmax(free - 0.1 * off - 1e3 * near))])
+        if np.ptp(course[:, 0]) < _UPRIGHT * np.ptp(course[:, 1]):
+            anchors.append(course[int(course[:, 1].argmax())])
+        else:
+            anchors.append(course[int(np.argmax(free - 0.1 * off - 1e3 * near))])
+            dotted.append(anchors[-1])
         words.append(line.label)
         names.append(line.name or line.label)
     if words:
-        ends = np.array(anchors)
-        sheet.dots(ends, "black", 0.45, "leader/dots")
-        label_row(sheet, ends, names, "above", at, name=name)
+        if dotted:
+            sheet.dots(np.array(dotted), "black", 0.45, "leader/dots")
+        label_row(sheet, np.array(anchors), names, "above", at, name=name)
 
 
 def resample(points: FloatArray, step: float) -> FloatArray:

@@ -51,6 +51,8 @@ class SideStretch:
         The side of that block.
     master_low, master_high : float, m
         Where along that side; between them both parameters run in proportion.
+    crease : bool
+        Only the border is taken over, not the tangent planes: it is a knuckle line.
     """
 
     low: float
@@ -60,6 +62,7 @@ class SideStretch:
     master_side: str = ""
     master_low: float = 0.0
     master_high: float = 0.0
+    crease: bool = False
 
 
 @attrs.frozen(eq=False)
@@ -73,7 +76,7 @@ class HullBlock:
     ----------
     name : str
         ``"body"``, ``"bow"``, ``"bow stem"``, ``"bow bulb"``, ``"stern"``, ``"stern counter"``,
-        ``"stern boss"``.
+        ``"stern boss"``; behind it `` below knuckle 1``, of the knuckle line along its upper side.
     kind : {"body", "bow", "stern"}
         Where it lies.
     extent : (2, 2), m
@@ -489,23 +492,25 @@ def _stretches(found: BlockMap, side: str, every: dict[str, BlockMap]) -> tuple[
     half = quad.side(side).tolist()
     axis = 1 if side[0] == "u" else 0
     at = found.core.uv[quad.nodes(side), axis]
+    seams = [master.get(h, master.get(h ^ 1)) for h in half]
+    centre = [bool(graph.net.centre[graph.curve[h >> 1]]) for h in half]
     keys = [
-        (master[h].master if h in master else master[h ^ 1].master if h ^ 1 in master else "",
-         bool(graph.net.centre[graph.curve[h >> 1]]))
-        for h in half
-    ]  # fmt: skip
+        ("" if seam is None else seam.master, seam is not None and seam.crease, on)
+        for seam, on in zip(seams, centre, strict=True)
+    ]
     parts = []
     begin = 0
     for i in range(1, len(half) + 1):
         if i < len(half) and keys[i] == keys[begin]:
             continue
-        name, centre = keys[begin]
+        name, crease, on_centre = keys[begin]
         low, high = float(at[begin]), float(at[i])
         if name:
             nodes = quad.nodes(side)[[begin, i]]
-            parts.append(_following(every[name].core, low, high, nodes, name))
+            found_part = _following(every[name].core, low, high, nodes, name)
+            parts.append(attrs.evolve(found_part, crease=crease))
         else:
-            parts.append(SideStretch(low, high, centre))
+            parts.append(SideStretch(low, high, on_centre))
         begin = i
     return tuple(parts)
 

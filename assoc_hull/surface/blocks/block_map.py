@@ -8,7 +8,7 @@ Along a border that follows another block they are those of that block, in propo
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import attrs
 import numpy as np
@@ -17,7 +17,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.surface.blocks.block_plan import BlockPlan
-from assoc_hull.surface.blocks.cell_regions import SIDES, CellRegion, Quad, RegionChord
+from assoc_hull.surface.blocks.cell_regions import SIDES, CellRegion, Quad
 
 __all__ = [
     "GRID",
@@ -197,12 +197,12 @@ def block_map(plan: BlockPlan, length: float, masters: Mapping[str, BlockMap]) -
     """
     count = len(plan.core.region.graph.place)
     sheet = _Sheet(np.full((count, 2), np.nan), GRID * length)
-    box = _railed(plan, sheet) if plan.rails else _box(plan.core, sheet)
+    box = _railed(plan, sheet, masters) if plan.rails else _box(plan.core, sheet)
     for seam in plan.seams:
         _follow(plan.core, seam.side, masters[seam.master].core, box, sheet)
     core = _laid(plan.core, box, sheet)
     if plan.rails:
-        core = _paced(core, plan.rails, sheet)
+        core = _paced(core, plan, sheet)
     bays = dict[str, LaidQuad]()
     for name in sorted(plan.bays, key=len):
         if " " not in name:
@@ -262,8 +262,11 @@ def _laid(quad: Quad, box: FloatArray, sheet: _Sheet) -> LaidQuad:
     return LaidQuad(quad, box, found)
 
 
-def _railed(plan: BlockPlan, sheet: _Sheet) -> FloatArray:
-    """Lay the sections of a body: u by their mean distance, v by parts of the mean girth."""
+def _railed(plan: BlockPlan, sheet: _Sheet, masters: Mapping[str, BlockMap]) -> FloatArray:
+    """Lay the sections of a body: u by their mean distance, v by parts of the mean girth.
+
+    Below a knuckle line u is that of the block above it.
+    """
     quad = plan.core
     graph = quad.region.graph
     halves = [quad.side("u0"), *(rail.half for rail in plan.rails), quad.side("u1")]
@@ -273,6 +276,9 @@ def _railed(plan: BlockPlan, sheet: _Sheet) -> FloatArray:
     girth = np.array([each[-1] for each in length])
     coarse = sheet.grid * (_COARSE / GRID)
     u = np.append(0.0, np.cumsum(np.maximum(np.round(np.array(step) / coarse), 1.0) * coarse))
+    for seam in plan.seams:
+        nodes = np.concatenate([quad.region.begin(half[:1]) for half in halves])
+        u = masters[seam.master].core.uv[nodes, 0]
     mean = float((0.5 * (girth[1:] + girth[:-1]) * step).sum() / sum(step))
     v = max(round(mean / coarse), 1) * coarse
     for i, half in enumerate(halves):
@@ -285,11 +291,14 @@ def _railed(plan: BlockPlan, sheet: _Sheet) -> FloatArray:
     return np.array([[0.0, u[-1]], [0.0, v]])
 
 
-def _paced(found: LaidQuad, rails: Sequence[RegionChord], sheet: _Sheet) -> LaidQuad:
-    """Let u run in proportion to x between sections: lines along the ship keep an even pace."""
+def _paced(found: LaidQuad, plan: BlockPlan, sheet: _Sheet) -> LaidQuad:
+    """Let u run in proportion to x between sections: lines along the ship keep an even pace.
+
+    Not on a side that follows another block.
+    """
     graph = found.quad.region.graph
     nodes = [found.quad.nodes("u0"), found.quad.nodes("u1")]
-    nodes += [np.append(found.quad.region.begin(rail.half), rail.last) for rail in rails]
+    nodes += [np.append(found.quad.region.begin(rail.half), rail.last) for rail in plan.rails]
     flat = [each for each in nodes if np.ptp(graph.place[each, 0]) == 0.0]
     pairs = np.unique([[graph.place[each[0], 0], found.uv[each[0], 0]] for each in flat], axis=0)
     if len(pairs) < 2 or (np.diff(pairs, axis=0) <= 0.0).any():
@@ -297,6 +306,8 @@ def _paced(found: LaidQuad, rails: Sequence[RegionChord], sheet: _Sheet) -> Laid
     x, uv = graph.place[:, 0], found.uv.copy()
     on = np.unique(graph.edge[found.quad.region.edges])
     on = on[(x[on] > pairs[0, 0]) & (x[on] < pairs[-1, 0])]
+    for seam in plan.seams:
+        on = np.setdiff1d(on, found.quad.nodes(seam.side))
     at = np.interp(x[on], pairs[:, 0], pairs[:, 1])
     uv[on, 0] = np.where(np.isin(x[on], pairs[:, 0]), at, sheet.rounded(at))
     sheet.uv[on] = uv[on]

@@ -2,6 +2,7 @@
 
 The body is master of the ends; of an end parted along, the upper part is master of the lower.
 A master knows nothing of what follows it, so a change in a bow changes nothing abaft of it.
+Knuckle lines from end to end part all of them once more, the part above master of that below.
 A surface is fitted over the bays too and cut at the border, so its end is not its worst place.
 """
 
@@ -26,6 +27,13 @@ from assoc_hull.surface.blocks.cell_regions import (
     find_inward_bends,
 )
 from assoc_hull.surface.blocks.end_cuts import LEAST, EndCut, add_bridges, end_cut, passes_bend
+from assoc_hull.surface.blocks.knuckle_cuts import (
+    KnuckleCut,
+    KnuckleLayer,
+    knuckle_cuts,
+    layers_between,
+    require_disc,
+)
 from assoc_hull.surface.cells.net_faces import NetCells
 
 __all__ = [
@@ -54,6 +62,9 @@ _APART, _BESIDE = 0.02, 0.003
 """Corners lie no nearer to one another than this part of the border, nor, than the other, to where
 the hull runs on."""
 
+_NARROW = 0.001
+"""Corners of a layer along a knuckle line, which may be narrow, are no nearer to one another."""
+
 
 def four_corners(
     region: CellRegion,
@@ -61,13 +72,18 @@ def four_corners(
     first: Sequence[int],
     second: Sequence[int] = (),
     never: Sequence[int] = (),
+    *,
+    least: float = _ROUND,
+    apart: float = _APART,
 ) -> tuple[tuple[int, ...], tuple[float, ...]]:
     """Choose four nodes round a region, counter-clockwise; also give the turns there, degrees.
 
     The turns are those over a short way: little at round borders. Nodes `first` are corners
     whatever the border does: those at the ends of a section that bounds it. Then come sharp corners
     of the hull, then nodes `second`, then where a smooth border turns most. Nodes `never` are none,
-    nor any near them: the hull runs on there. `length`, m, is that of the ship.
+    nor any near them: the hull runs on there. `length`, m, is that of the ship. Where a border
+    turns by fewer degrees than `least` it has no corner; corners are a part `apart` of it from one
+    another.
     """
     found = border_course(region)
     node = found.node.tolist()
@@ -81,7 +97,8 @@ def four_corners(
     rank[np.isin(node, first)] = 3
     chosen = np.flatnonzero(rank == 3).tolist()
     for level in (2, 1, 0):
-        chosen += _best(found, turn, np.flatnonzero(rank == level).tolist(), chosen)
+        of = [i for i in np.flatnonzero(rank == level).tolist() if turn[i] >= least]
+        chosen += _best(found, turn, of, chosen, apart)
     chosen.sort()
     return tuple(node[i] for i in chosen), tuple(float(sharp[i]) for i in chosen)
 
@@ -90,24 +107,25 @@ def _at(node: Sequence[int], which: Sequence[int]) -> list[int]:
     return [i for i, each in enumerate(node) if each in which]
 
 
-def _apart(found: BorderCourse, i: int, chosen: Sequence[int], part: float = _APART) -> bool:
+def _apart(found: BorderCourse, i: int, chosen: Sequence[int], part: float) -> bool:
     """Tell whether a node is a part of the border away from others."""
     gaps = [abs(float(found.start[i] - found.start[j])) for j in chosen]
     return all(min(gap, found.length - gap) >= part * found.length for gap in gaps)
 
 
 def _best(
-    found: BorderCourse, turn: FloatArray, of: Sequence[int], chosen: Sequence[int]
+    found: BorderCourse, turn: FloatArray, of: Sequence[int], chosen: Sequence[int], part: float
 ) -> list[int]:
     """Choose from nodes the corners that lack: they turn most, and sides stay in proportion."""
     lack = 4 - len(chosen)
-    good = [i for i in of if turn[i] >= _ROUND and _apart(found, i, chosen)]
+    good = [i for i in of if _apart(found, i, chosen, part)]
     if len(good) <= lack:
         return good
     best, value = tuple[int, ...](), 0.0
     for extra in itertools.combinations(good, lack):
-        apart = (_apart(found, i, extra[:k]) for k, i in enumerate(extra))
-        worth = float(np.prod(turn[list(extra)])) * _shape(found, [*chosen, *extra])
+        apart = (_apart(found, i, extra[:k], part) for k, i in enumerate(extra))
+        bent = np.maximum(turn[list(extra)], _ROUND)
+        worth = float(np.prod(bent)) * _shape(found, [*chosen, *extra])
         if worth > value and all(apart):
             best, value = extra, worth
     return list(best)
@@ -127,38 +145,43 @@ def _shape(found: BorderCourse, corner: Sequence[int]) -> float:
 Bays = dict[str, Quad]
 
 
-def bays_of_whole(whole: CellRegion, end: EndCut) -> Bays:
-    """Give the bay beside an end that is one block, by its side."""
-    strip = _strip(whole, end)
-    found = None if strip is None else _bay(strip, end, end.section.first, end.section.last)
+def bays_of_whole(strip: CellRegion | None, end: EndCut, top: int, bottom: int) -> Bays:
+    """Give the bay beside an end, or a layer of it, that is one block, by its side.
+
+    `strip` is the part of the body beside it, `top` and `bottom` are where its section ends.
+    """
+    found = None if strip is None else _bay(strip, end, top, bottom)
     return {} if found is None else {_side(end): found}
 
 
 def bays_of_parts(
-    whole: CellRegion, end: EndCut, upper: CellRegion, high: int
+    strip: CellRegion | None, end: EndCut, upper: CellRegion, high: int, top: int, bottom: int
 ) -> tuple[Bays, Bays]:
     """Give the bays beside the upper and the lower block of an end that is cut along a waterline.
 
-    `upper` is the part above it, `high` a half-edge of the waterline that has this on its left. The
-    bays of the lower block reach beyond the waterline as well.
+    `strip` is the part of the body beside both, `upper` the block above the waterline, `high` a
+    half-edge of this that has it on its left; `top` and `bottom` are where the section of both
+    ends. The bays of the lower block reach beyond the waterline as well.
     """
-    strip, side, line = _strip(whole, end), _side(end), end.along[0]
+    side, line = _side(end), end.along[0]
     carried = [None if strip is None else _carried(strip, each) for each in end.along]
     above, below = Bays(), Bays()
     base = carried[0]
     if strip is not None and base is not None:
         # Towards midship it runs aft from a bow, its upper side on the left; from a stern, forward.
         upward = int(base.half[0]) ^ (end.kind == "stern")
-        for bays, half, top, bottom in (
-            (above, upward, end.section.first, line.first),
-            (below, upward ^ 1, line.first, end.section.last),
+        for bays, half, first, last in (
+            (above, upward, top, line.first),
+            (below, upward ^ 1, line.first, bottom),
         ):
-            found = _bay(strip.with_half([base.half], half), end, top, bottom)
+            found = _bay(strip.with_half([base.half], half), end, first, last)
             if found is not None:
                 bays[side] = found
     if len(end.along) == 1:
         return above, below
     next_line = end.along[1]
+    if not upper.interior[next_line.half >> 1].all():
+        return above, below  # a knuckle line runs between
     part = upper.with_half([next_line.half], high)
     # Only a disc has four corners.
     if part is not None and part.is_disc:
@@ -178,13 +201,15 @@ def _side(end: EndCut) -> str:
     return "u1" if end.kind == "stern" else "u0"
 
 
-def _strip(whole: CellRegion, end: EndCut) -> CellRegion | None:
-    """Give the bay of the body beside an end."""
+def _strip(whole: CellRegion, end: EndCut, layer: CellRegion) -> CellRegion | None:
+    """Give the bay of the body beside an end, of a layer of the body."""
     if end.beside is None:
         return None
     cuts = [end.section.half, end.beside.half]
     found = whole.with_half(cuts, int(end.section.half[0]) ^ (end.kind == "stern"))
-    return found if found is not None and found.is_disc else None
+    if found is None or not found.is_disc:
+        return None
+    return CellRegion(found.cells, found.inside & layer.inside)
 
 
 def _bay(region: CellRegion | None, end: EndCut, top: int, bottom: int) -> Quad | None:
@@ -239,11 +264,14 @@ class BlockSeam:
         The name of the other block.
     half : tuple of int
         The half-edges along it.
+    crease : bool
+        It is a knuckle line: places are shared, tangent planes are not.
     """
 
     side: str
     master: str
     half: tuple[int, ...]
+    crease: bool = False
 
 
 @attrs.frozen(eq=False)
@@ -283,24 +311,55 @@ class BlockPlan:
 def block_plans(cells: NetCells, length: float) -> tuple[BlockPlan, ...]:
     """Part a half hull into blocks, masters first; `length`, m, is that of the ship.
 
+    A knuckle line along which no blocks with four corners are found stays within them, with a note.
     Raises BadInputError where the half hull, or a part of it, is no disc with four corners.
     """
     whole = CellRegion.whole(cells)
-    _require_disc(whole, "the half hull")
+    require_disc(whole, "the half hull")
     ends = tuple(end_cut(whole, length, kind) for kind in ("stern", "bow"))
     found = add_bridges(cells, ends, length)
     if found is not cells:
         whole = CellRegion.whole(found)
         ends = tuple(end_cut(whole, length, kind) for kind in ("stern", "bow"))
+    plans, notes = _creased(whole, length, ends)
+    cut_off = [end.bend.place for end in ends if end is not None]
+    bends = find_inward_bends(border_course(whole), length, LEAST)
+    left = [bend for bend in bends if bend.place not in cut_off]
+    plans[0] = attrs.evolve(plans[0], notes=(*plans[0].notes, *notes))
+    return tuple(attrs.evolve(plan, notes=plan.notes + _hard(plan, left, length)) for plan in plans)
+
+
+def _creased(
+    whole: CellRegion, length: float, ends: Sequence[EndCut | None]
+) -> tuple[list[BlockPlan], list[str]]:
+    """Plan all blocks, cut along as many knuckle lines as can be; say why others are not."""
+    taken, notes = list[KnuckleCut](), list[str]()
+    knuckles = knuckle_cuts(whole)
+    try:
+        plans = _plans(whole, length, ends, ())
+    except BadInputError:
+        # The corners of a chined end may be too many for one block.
+        return _plans(whole, length, ends, knuckles), notes
+    for cut in knuckles:
+        try:
+            plans = _plans(whole, length, ends, [*taken, cut])
+            taken.append(cut)
+        except BadInputError as error:
+            notes.append(f"{cut.name} is no crease: {error.what}")
+    return plans, notes
+
+
+def _plans(
+    whole: CellRegion, length: float, ends: Sequence[EndCut | None], cuts: Sequence[KnuckleCut]
+) -> list[BlockPlan]:
+    """Plan all blocks, cut along knuckle lines too."""
     stern, bow = ends
-    plans = [_body(whole, length, stern, bow)]
+    body = _body(whole, length, stern, bow, cuts)
+    every = list(body)
     for end in ends:
         if end is not None:
-            plans += _end(whole, length, end)
-    cut = [end.bend.place for end in ends if end is not None]
-    bends = find_inward_bends(border_course(whole), length, LEAST)
-    left = [bend for bend in bends if bend.place not in cut]
-    return tuple(attrs.evolve(plan, notes=plan.notes + _hard(plan, left, length)) for plan in plans)
+            every += _end(whole, length, end, body, cuts)
+    return every
 
 
 def _hard(plan: BlockPlan, bends: Sequence[ProfileBend], length: float) -> tuple[str, ...]:
@@ -313,16 +372,14 @@ def _hard(plan: BlockPlan, bends: Sequence[ProfileBend], length: float) -> tuple
     )
 
 
-def _require_disc(region: CellRegion, name: str) -> None:
-    if not region.is_disc:
-        raise BadInputError(
-            f"{name} is no disc: its border has {len(region.loops)} loops",
-            "in the blocks of a surface",
-            "look for lines that end nowhere, or that lie on one another",
-        )
-
-
-def _body(whole: CellRegion, length: float, stern: EndCut | None, bow: EndCut | None) -> BlockPlan:
+def _body(
+    whole: CellRegion,
+    length: float,
+    stern: EndCut | None,
+    bow: EndCut | None,
+    knuckles: Sequence[KnuckleCut],
+) -> list[BlockPlan]:
+    """Plan the layers of the body, from the deck down."""
     cuts = [each.section.half for each in (stern, bow) if each is not None]
     region = whole
     if stern is not None:
@@ -334,41 +391,84 @@ def _body(whole: CellRegion, length: float, stern: EndCut | None, bow: EndCut | 
         if end is not None:
             first.append(end.section.first)
             (never if end.beside is None else first).append(end.section.last)
-    quad, turn = _quad(region, length, first, (), "body", never=never)
+    found = list[BlockPlan]()
+    for layer in layers_between(region, knuckles, "body"):
+        name = "body" + layer.titled
+        quad, turn = _quad(layer, length, first, (), name, never=never)
+        seams = _crease(layer, found)
+        rails = _rails(layer.region, quad)
+        found.append(BlockPlan(name, "body", quad, {}, seams, rails, turn, ()))
+    return found
+
+
+def _rails(region: CellRegion, quad: Quad) -> tuple[RegionChord, ...]:
+    """Give the sections that run through a region from its upper side to its lower, from aft."""
+    graph = region.graph
     nodes = [set(quad.nodes(side).tolist()) for side in ("v0", "v1")]
-    curves = np.unique(whole.graph.curve[region.edges])
+    curves = np.unique(graph.curve[region.edges])
     rails = [
         run
         for curve in curves.tolist()
-        if whole.graph.net.family[curve] == "sections"
+        if graph.net.family[curve] == "sections"
         for chord in region.chords(curve)
         for run in (chord, chord.reversed())
         if run.first in nodes[0] and run.last in nodes[1]
     ]
-    x = whole.graph.net.x
-    rails.sort(key=lambda run: float(x[run.curve]))
-    return BlockPlan("body", "body", quad, {}, (), tuple(rails), turn, ())
+    rails.sort(key=lambda run: float(graph.net.x[run.curve]))
+    return tuple(rails)
 
 
-def _end(whole: CellRegion, length: float, end: EndCut) -> list[BlockPlan]:
+def _crease(layer: KnuckleLayer, above: Sequence[BlockPlan]) -> tuple[BlockSeam, ...]:
+    """Give the seam along the knuckle line over a layer; its master is the last of those above."""
+    if layer.above is None:
+        return ()
+    return (BlockSeam("v0", above[-1].name, tuple(layer.above.half.tolist()), crease=True),)
+
+
+def _beside_body(quad: Quad, side: str, body: Sequence[BlockPlan]) -> BlockPlan:
+    """Give the layer of the body that a block lies beside."""
+    half = quad.side(side)[:1]
+    cells = quad.region.cells.cell_of[np.concatenate([half, half ^ 1])]
+    return next(each for each in body if each.core.region.inside[cells[cells >= 0]].any())
+
+
+def _end(
+    whole: CellRegion,
+    length: float,
+    end: EndCut,
+    body: Sequence[BlockPlan],
+    knuckles: Sequence[KnuckleCut],
+) -> list[BlockPlan]:
     """Plan the blocks of an end."""
     aft = end.kind == "stern"
     section = end.section
     region = _part(whole, [section.half], int(section.half[0]) ^ (not aft), end.kind)
     side = "u1" if aft else "u0"
-    if not end.along:
-        name = "stern counter" if aft and end.beside is None else end.kind
-        quad, turn = _quad(region, length, [section.first, section.last], [], name, aft)
-        bays = bays_of_whole(whole, end)
-        seam = BlockSeam(side, "body", tuple(quad.side(side).tolist()))
-        return [BlockPlan(name, end.kind, quad, bays, (seam,), (), turn, end.notes)]
-    return _parted_end(whole, length, end, region)
+    if end.along:
+        return _parted_end(whole, length, end, region, body, knuckles)
+    title = "stern counter" if aft and end.beside is None else end.kind
+    found = list[BlockPlan]()
+    for layer in layers_between(region, knuckles, title):
+        name = title + layer.titled
+        quad, turn = _quad(layer, length, [section.first, section.last], [], name, aft)
+        master = _beside_body(quad, side, body)
+        top, bottom = quad.nodes(side)[[0, -1]].tolist()
+        bays = bays_of_whole(_strip(whole, end, master.core.region), end, top, bottom)
+        seam = BlockSeam(side, master.name, tuple(quad.side(side).tolist()))
+        seams = (seam, *_crease(layer, found))
+        found.append(BlockPlan(name, end.kind, quad, bays, seams, (), turn, end.notes))
+    return found
 
 
 def _parted_end(
-    whole: CellRegion, length: float, end: EndCut, region: CellRegion
+    whole: CellRegion,
+    length: float,
+    end: EndCut,
+    region: CellRegion,
+    body: Sequence[BlockPlan],
+    knuckles: Sequence[KnuckleCut],
 ) -> list[BlockPlan]:
-    """Plan the two blocks of an end that is cut along a waterline."""
+    """Plan the blocks of an end that is cut along a waterline, and along knuckle lines above."""
     aft = end.kind == "stern"
     side = "u1" if aft else "u0"
     section, line = end.section, end.along[0]
@@ -379,22 +479,29 @@ def _parted_end(
         for half, name in zip((high, high ^ 1), names, strict=True)
     ]
     within = region.begin(line.half[1:]).tolist()
-    upper, turn_upper = _quad(
-        parts[0], length, [section.first, line.first], [line.last], names[0], aft, within
+    found = list[BlockPlan]()
+    for layer in layers_between(parts[0], knuckles, names[0]):
+        name, first = names[0] + layer.titled, [section.first, line.first]
+        upper, turn = _quad(layer, length, first, [line.last], name, aft, within)
+        master = _beside_body(upper, side, body)
+        strip = _strip(whole, end, master.core.region)
+        top, bottom = upper.nodes(side)[[0, -1]].tolist()
+        bays = bays_of_whole(strip, end, top, bottom)
+        seam = BlockSeam(side, master.name, tuple(upper.side(side).tolist()))
+        seams = (seam, *_crease(layer, found))
+        found.append(BlockPlan(name, end.kind, upper, bays, seams, (), turn, end.notes))
+    (lowest,) = layers_between(parts[1], (), names[1])
+    lower, turn = _quad(
+        lowest, length, [line.first, section.last, line.last], (), names[1], aft, within
     )
-    lower, turn_lower = _quad(
-        parts[1], length, [line.first, section.last, line.last], (), names[1], aft, within
+    above, below = bays_of_parts(strip, end, upper.region, high, top, section.last)
+    found[-1] = attrs.evolve(found[-1], bays=above)
+    seams = (
+        BlockSeam(side, master.name, tuple(lower.side(side).tolist())),
+        BlockSeam("v0", found[-1].name, tuple(line.half.tolist())),
     )
-    bays = bays_of_parts(whole, end, parts[0], high)
-    seam = [BlockSeam(side, "body", tuple(quad.side(side).tolist())) for quad in (upper, lower)]
-    below = tuple(line.half.tolist())
-    return [
-        BlockPlan(names[0], end.kind, upper, bays[0], (seam[0],), (), turn_upper, end.notes),
-        BlockPlan(
-            names[1], end.kind, lower, bays[1], (seam[1], BlockSeam("v0", names[0], below)), (),
-            turn_lower, end.notes,
-        ),
-    ]  # fmt: skip
+    found.append(BlockPlan(names[1], end.kind, lower, below, seams, (), turn, end.notes))
+    return found
 
 
 def _part(whole: CellRegion, cuts: Sequence[np.ndarray], half: int, name: str) -> CellRegion:
@@ -403,12 +510,12 @@ def _part(whole: CellRegion, cuts: Sequence[np.ndarray], half: int, name: str) -
         raise BadInputError(
             f"{name} has no cells", "in the blocks of a surface", "look at the lines at the ends"
         )
-    _require_disc(found, name)
+    require_disc(found, name)
     return found
 
 
 def _quad(
-    region: CellRegion,
+    layer: KnuckleLayer,
     length: float,
     first: Sequence[int],
     second: Sequence[int],
@@ -416,14 +523,26 @@ def _quad(
     aft: bool | None = None,
     never: Sequence[int] = (),
 ) -> tuple[Quad, tuple[float, ...]]:
-    """Find the four corners of a region, beginning aft at the deck."""
-    node, turn = four_corners(region, length, first, second, never)
-    if len(node) < 4:
+    """Find the four corners of a layer, beginning aft at the deck."""
+    region, ends = layer.region, layer.corners
+    apart = _NARROW if ends else _APART
+    node, turn = four_corners(region, length, [*first, *ends], second, never, apart=apart)
+    if len(node) < 4 and ends:
+        # Where a chine runs into the keel there are three sides: one of them is cut in two.
+        node, turn = four_corners(
+            region, length, [*first, *ends], second, never, least=0.0, apart=apart
+        )
+    if len(node) != 4:
         raise BadInputError(
             f"{name} has {len(node)} corners", "in the blocks of a surface",
             "its border has to turn at four places",
         )  # fmt: skip
-    i = _first_corner(region, node, first, aft)
+    if layer.above is not None:
+        i = node.index(layer.above.first)
+    elif layer.below is not None:
+        i = (node.index(layer.below.first) + 1) % 4
+    else:
+        i = _first_corner(region, node, first, aft)
     order = [(i + k) % 4 for k in range(4)]
     return Quad(region, tuple(node[k] for k in order)), tuple(turn[k] for k in order)  # type: ignore[arg-type]
 

@@ -25,7 +25,7 @@ from assoc_hull.geometry.fitting.surface_joints import (
     strip_of,
 )
 from assoc_hull.surface.blocks.block_layout import HullBlock, SideStretch
-from assoc_hull.surface.blocks.fit_options import FitOptions, angle_limit
+from assoc_hull.surface.blocks.fit_options import CREASE, FitOptions, angle_limit
 from assoc_hull.surface.blocks.fit_quality import BlockBorder
 
 __all__ = [
@@ -364,8 +364,9 @@ def join_block_to_masters(
     """Cut a fit with its overlap at the borders of its block, and join it to its masters there."""
     strips = dict(_strips(block, made))
     (u0, u1), (v0, v1) = block.extent.tolist()
+    creases = {side for stretch, side in _following_stretches(block) if stretch.crease}
     part = join_to_masters(
-        fit, ((u0, u1), (v0, v1)), strips, lambda u, v: hold_centre_controls(block, u, v)
+        fit, ((u0, u1), (v0, v1)), strips, lambda u, v: hold_centre_controls(block, u, v), creases
     )
     part = _measured(block, fit, part)
     borders = []
@@ -373,10 +374,9 @@ def join_block_to_masters(
         master = made[stretch.master].block
         joint = measure_joint(side, strips[side], fit.surface, part.surface)
         names, kinds = (master.name, block.name), (master.kind, block.kind)
+        limit = CREASE if stretch.crease else angle_limit(kinds)
         borders.append(
-            BlockBorder(
-                names, joint.gap, joint.joined_gap, joint.angle, joint.place, angle_limit(kinds)
-            )
+            BlockBorder(names, joint.gap, joint.joined_gap, joint.angle, joint.place, limit)
         )
     return MadeBlock(block, fit, part, tuple(borders))
 

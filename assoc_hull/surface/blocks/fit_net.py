@@ -104,7 +104,7 @@ def block_unmoved(
 def _sides(block: HullBlock) -> list[tuple[object, ...]]:
     """Give what sides are made of, without numbers."""
     return [
-        (side, stretch.centre, stretch.master, stretch.master_side)
+        (side, stretch.centre, stretch.master, stretch.master_side, stretch.crease)
         for side, stretches in sorted(block.sides.items())
         for stretch in stretches
     ]

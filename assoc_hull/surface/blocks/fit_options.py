@@ -18,7 +18,7 @@ import numpy as np
 from assoc_hull.arguments import not_negative, positive
 from assoc_hull.model.tables import HullState
 
-__all__ = ["CUTOFF", "FitOptions", "angle_limit", "fit_options", "length_of"]
+__all__ = ["CREASE", "CUTOFF", "FitOptions", "angle_limit", "fit_options", "length_of"]
 
 _LENGTH = 300.0
 SMOOTHING = 9.6e-10
@@ -35,6 +35,8 @@ _AREA = 0.005
 """... if their area is this part of the length squared or more; smaller ones have less."""
 
 _BODY_ANGLE, _END_ANGLE = 0.1, 0.5
+CREASE = 180.0
+"""The limit of the angle where blocks meet along a knuckle line, degrees: none."""
 
 
 @attrs.frozen

@@ -88,7 +88,7 @@ class BlockBorder:
     place : (3,), m
         Where the largest angle is.
     limit : float, degrees
-        What the angle should keep.
+        What the angle should keep; 180 along a knuckle line, where it is free.
     """
 
     names: tuple[str, str]

@@ -20,7 +20,7 @@ from assoc_hull.geometry.fitting.folds import surface_elements
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.model.tables import Particulars
 from assoc_hull.surface.blocks.fit_block import MadeBlock
-from assoc_hull.surface.blocks.fit_options import FitOptions
+from assoc_hull.surface.blocks.fit_options import CREASE, FitOptions
 from assoc_hull.surface.blocks.fit_quality import (
     BlockBorder,
     Residuals,
@@ -221,9 +221,11 @@ def require_sound_surface(surface: FittedSurface, *, accept: bool) -> None:
 FORMAT, SCHEMA = "assoc-hull surface", 1
 _MM = 1000.0
 _HEAD = (
-    f"{'block':16}{'lines':10}{'points':>8}{'median':>9}{'p95':>9}{'p99':>9}{'max mm':>9}"
+    f"{'lines':10}{'points':>8}{'median':>9}{'p95':>9}{'p99':>9}{'max mm':>9}"
     f"{'limit':>8}  {'where the largest is (x, y, z m)':34}"
 )
+_WIDTH = 16
+"""Of the names of blocks, if none is longer."""
 
 
 @attrs.frozen(eq=False)
@@ -250,21 +252,19 @@ class ResidualTable:
 
     def __str__(self) -> str:
         """Write the table, mm."""
-        rows = [_row(block.name, found, block.limit) for block, found in self]
-        rows += [_row("all", found) for found in self.whole]
-        return "\n".join([_HEAD.rstrip(), *rows])
+        width = max(_WIDTH, *(len(block.name) + 2 for block in self.blocks))
+        rows = [block.name.ljust(width) + _row(found, block.limit) for block, found in self]
+        rows += ["all".ljust(width) + _row(found) for found in self.whole]
+        return "\n".join(["block".ljust(width) + _HEAD.rstrip(), *rows])
 
 
-def _row(name: str, found: Residuals, limit: float | None = None) -> str:
+def _row(found: Residuals, limit: float | None = None) -> str:
     if not found.count:
-        return f"{name:16}{found.kind:10}{0:8d}"
+        return f"{found.kind:10}{0:8d}"
     columns = (found.median, found.p95, found.p99, found.largest)
     numbers = "".join(f"{_MM * each:9.2f}" for each in columns)
     bound = f"{_MM * limit:8.1f}" if limit and found.kind == "fitted" else f"{'':8}"
-    return (
-        f"{name:16}{found.kind:10}{found.count:8d}{numbers}{bound}  "
-        f"{_place(found.place)} on {found.line}"
-    )
+    return f"{found.kind:10}{found.count:8d}{numbers}{bound}  {_place(found.place)} on {found.line}"
 
 
 def _place(place: FloatArray) -> str:
@@ -314,7 +314,7 @@ def _border(border: BlockBorder) -> str:
     return (
         f"{border.names[0]} | {border.names[1]}: gap {gap} mm as fitted, "
         f"{_MM * border.joined_gap:.3g} joined; angle {angle} deg (median / p95 / max, "
-        f"largest at {_place(border.place)})"
+        f"largest at {_place(border.place)})" + (", a crease" if border.limit == CREASE else "")
     )
 
 
