@@ -142,7 +142,7 @@ def typed_ship(
 
 def _made(request: _Request) -> Hull:
     """Make the ship, with its notes."""
-    state, report, typed = build_typed(request.design())
+    state, report, typed = build_typed(_nearly_closed(request.design(), request.six))
     hull, typed = _closed(Hull(state), request.six, typed)
     found = hull.check()
     doubts = [
@@ -155,6 +155,38 @@ def _made(request: _Request) -> Hull:
         measured += passes_side(hull.state)
     hull.notes = (*typed.notes, *measured, *doubts)
     return hull
+
+
+_NEAR = 5e-4
+"""CB, and LCB in parts of the length, that miss by less before lines are cut are near enough."""
+
+
+def _nearly_closed(typed: TypedDesign, asked: SixNumbers) -> TypedDesign:
+    """Give the design with the areas that its sections need, before courses are solved for good.
+
+    A bulb ahead of FP and a counter abaft AP are no part of the curve of areas. Areas that change
+    by half a percent after courses were solved for others would bring waves back.
+    """
+    if typed.drawn:
+        return typed
+    try:
+        design, notes, state, _ = with_room(typed, _FIRST)
+        found = Hull(state).hydrostatics(estimate=False)
+        more = asked.cb - found.cb
+        ahead = asked.lcb - (found.lcb - 0.5 * asked.length)
+        if max(abs(more), abs(ahead) / asked.length) <= _NEAR:
+            return typed
+        now = coefficients(design.definition("sectional_area"), design.particulars)
+        assert now.block is not None
+        areas = with_areas(design, now.block + more, now.centroid + ahead)
+    except _MISFITS:
+        # What is wrong is told, or mended, where the ship is made.
+        return typed
+    return attrs.evolve(typed, design=design.having(areas), notes=(*typed.notes, *notes))
+
+
+_FIRST = 4
+"""Rounds of the first solution of courses."""
 
 
 _CLOSE = 2e-7

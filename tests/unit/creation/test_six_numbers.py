@@ -6,9 +6,11 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.creation.area_swing import half_sums, swing_areas
-from assoc_hull.creation.six_numbers import SixNumbers, design_for
+from assoc_hull.creation.six_numbers import SixNumbers, TypedDesign, design_for
+from assoc_hull.creation.six_numbers_net import with_room
 from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.hull.hull import Hull
+from assoc_hull.hull.typed_ship import _nearly_closed
 from assoc_hull.model.forms.closure import coefficients
 from assoc_hull.model.forms.two_halves import half_number
 from assoc_hull.shipped.ship_types import SHIP_TYPES, ship_type
@@ -36,6 +38,19 @@ def test_ship_from_six_numbers_is_sound_and_has_no_history(cargo: Hull) -> None:
     assert not cargo.check()
     assert not cargo.verify()
     assert not cargo.history
+
+
+def test_courses_are_solved_for_nearly_the_areas_that_the_ship_gets() -> None:
+    """A bulb ahead of FP is no part of the curve of areas: it is allowed for before solving."""
+    six = SixNumbers(140.0, 20.0, 6.4, 10.4, 0.64, -2.0)
+    typed = design_for(SHIP_TYPES["container ship"], six)
+
+    def miss(design: TypedDesign) -> float:
+        found = Hull(with_room(design, 3)[2]).hydrostatics(estimate=False)
+        return abs(found.cb - six.cb) + abs(found.lcb - 70.0 - six.lcb) / six.length
+
+    assert miss(typed) > 1e-3
+    assert miss(_nearly_closed(typed, six)) < 2e-4
 
 
 def test_values_can_be_read_and_set(cargo: Hull) -> None:
