@@ -47,7 +47,8 @@ from assoc_hull.model.dirty_nodes import CLEAN
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import free_axes
 from assoc_hull.model.objects import Point
-from assoc_hull.model.program.run_program import ProgramRun, write_points
+from assoc_hull.model.program.run_program import Doubt, ProgramRun, features_off, write_points
+from assoc_hull.model.program.structure import KEEP_THEIR_SHAPE
 from assoc_hull.model.tables import HullState
 
 __all__ = ["Drag", "DragWay", "Live"]
@@ -213,9 +214,24 @@ class _QuickWay:
         held = moved[table.sort[moved] == Sort.ADOPTED] if self.pull else moved[:0]
         run = numbers.run(moved, held)
         try:
-            yield run if run.sound and self._has_arrived(amount) else None
+            yield run if self._answers(run) and self._has_arrived(amount) else None
         finally:
             numbers.restore(run)
+
+    def _answers(self, run: ProgramRun) -> bool:
+        """Tell whether the numbers of a run are those of the edit.
+
+        What has come off a feature by little is drawn anew by the edit, which the run knows
+        nothing of; farther off, the edit only lets go of the feature.
+        """
+        if run.doubt is not Doubt.FEATURE:
+            return run.kept
+        program, values = self.numbers.published.program, self.numbers.values
+        left, off = features_off(program, values, run.rows)
+        bent = off > program.features.limit[left] * (1.0 - 1e-9)
+        # An arc is drawn on its moved ends, and measured off there: only the edit itself can tell.
+        known = np.isin(program.features.shape[left[bent]], KEEP_THEIR_SHAPE)
+        return bool(known.all() and (off[bent] > self.state.tolerances.adoption).all())
 
     def _has_arrived(self, amount: float) -> bool:
         """Tell whether the point came where it was pulled, so that no more sub-steps follow."""

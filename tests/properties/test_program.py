@@ -12,7 +12,7 @@ from collections.abc import Callable
 import attrs
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
@@ -39,7 +39,7 @@ from assoc_hull.model.program.structure import (
 from assoc_hull.model.tables import HullState, copy_state
 from tests.conftest import Shipped
 from tests.long_forms import LONG
-from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
+from tests.net_strategies import POOL, SHAPES, STRUCTURE, Act, Task, carry_out, fresh, tasks
 
 NUMBERS = tuple(each.name for each in attrs.fields(Values))
 NONE = np.zeros(0, np.int64)
@@ -146,6 +146,9 @@ def assert_drags_agree(hull: ah.Hull, rng: np.random.Generator, count: int) -> i
     return quick
 
 
+# A straight run that a drag bends by little is drawn anew on its moved ends.
+@example(number=0, edits=[Task((Act("straighten", 2, 1, 0.0),), "refuse")], seed=17)
+@example(number=0, edits=[Task((Act("straighten", 0, 0, 0.0),), "refuse")], seed=136)
 @settings(max_examples=25, deadline=None)
 @given(number=st.integers(0, POOL - 1), edits=tasks_of_all_kinds, seed=st.integers(0, 2**32 - 1))
 def test_a_step_of_a_drag_is_the_whole_edit_to_the_bit(

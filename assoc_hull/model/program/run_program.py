@@ -38,6 +38,7 @@ __all__ = [
     "RunProgram",
     "begins",
     "curve_data",
+    "features_off",
     "ranges",
     "run_program",
     "run_tile",
@@ -93,11 +94,6 @@ class ProgramRun:
     def kept(self) -> bool:
         """Whether the edit is nothing but these numbers."""
         return self.doubt is Doubt.NONE
-
-    @property
-    def sound(self) -> bool:
-        """Whether the numbers are those of the edit; it may have more to say of features."""
-        return self.doubt in (Doubt.NONE, Doubt.FEATURE)
 
 
 @attrs.frozen(eq=False)
@@ -628,12 +624,17 @@ def _tangents(program: Program, values: Values, meeting: IntArray) -> FloatArray
 
 def _features_left(program: Program, values: Values, rows: IntArray) -> IntArray:
     """Give the features that points which own them have come off."""
-    features, left = program.features, list[int]()
-    for each in np.unique(ranges(features.owner_start, features.owner, rows)).tolist():
+    found, off = features_off(program, values, rows)
+    # A point that is at the limit, but for rounding, is left to the full way.
+    return found[~(off <= program.features.limit[found] * (1.0 - 1e-9))]
+
+
+def features_off(program: Program, values: Values, rows: IntArray) -> tuple[IntArray, FloatArray]:
+    """Give the features that own points (k,), ascending, and how far theirs lie off them, m."""
+    features, off = program.features, list[float]()
+    found = np.unique(ranges(features.owner_start, features.owner, rows))
+    for each in found.tolist():
         span = slice(features.start[each], features.start[each + 1])
-        off = off_shapes(int(features.shape[each]), features.numbers[each],
-                         values.xyz[features.point[span]])  # fmt: skip
-        # A point that is at the limit, but for rounding, is left to the full way.
-        if not off.max() <= features.limit[each] * (1.0 - 1e-9):
-            left.append(each)
-    return np.array(left, np.int64)
+        shape, numbers = int(features.shape[each]), features.numbers[each]
+        off.append(off_shapes(shape, numbers, values.xyz[features.point[span]]).max())
+    return found, np.array(off, np.float64)

@@ -26,6 +26,7 @@ from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = [
+    "KEEP_THEIR_SHAPE",
     "CompiledFeatures",
     "Program",
     "PublishedProgram",
@@ -40,6 +41,9 @@ _NEAR = 2.0
 """Times `Tolerances.factor`: latent meetings as near as this (m) may be one crossing."""
 
 _CIRCLE, _FLAT, _STRAIGHT, _NO_SHAPE = 0, 1, 2, 3
+
+KEEP_THEIR_SHAPE = (_FLAT, _STRAIGHT)
+"""A flat has its plane, a straight run the chord of its ends, wherever points go."""
 
 
 @attrs.frozen(eq=False)
