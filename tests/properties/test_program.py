@@ -423,6 +423,32 @@ def test_the_first_point_of_all_is_an_anchor_as_any_other(
     np.testing.assert_allclose(values.xyz[row] - before.xyz[row], away[0], atol=1e-12)
 
 
+@pytest.mark.parametrize("arithmetic", ["numpy", "compiled"])
+def test_latent_meetings_that_come_as_near_as_may_be_are_doubted(
+    arithmetic: str, shipped: Shipped
+) -> None:
+    """They may be one crossing then; a little farther apart nothing is doubted."""
+    found = program_of(shipped("bulk_carrier"))
+    assert found is not None
+    program, before = found.program, found.values
+    one, other = program.meet_start[[2, 9]]
+    start = np.zeros(program.curves + 1, np.int64)
+    start[program.meet_curve[one] + 1 :] += 1
+    start[program.meet_curve[other] + 1 :] += 1
+    arrays = {
+        "pair_a": np.array([one]), "pair_b": np.array([other]), "pair_start": start,
+        "paired": np.zeros(2, np.int64),
+    }  # fmt: skip
+    for each in arrays.values():
+        each.setflags(write=False)
+    least = float(np.linalg.norm(before.place[one] - before.place[other]))
+    assert least > 0.0
+    for near, doubt in ((1.001 * least, Doubt.LATENT), (0.999 * least, Doubt.NONE)):
+        runner = runner_in(arithmetic, attrs.evolve(program, near=near, **arrays))
+        run = runner.run(before.copy(), before, NONE, NONE, np.arange(program.curves))
+        assert run.doubt is doubt
+
+
 def test_nil_has_a_sign_for_both_arithmetics() -> None:
     """A bit that differs passes a change on, whatever the numbers are worth."""
     pytest.importorskip("numba")
