@@ -23,7 +23,9 @@ from assoc_hull.model.feature_geometry import off_shapes, places_off
 from assoc_hull.model.index import build_index
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.program.run_program import (
+    Doubt,
     NumpyProgram,
+    ProgramRun,
     RunProgram,
     _features_left,
     differs,
@@ -32,6 +34,7 @@ from assoc_hull.model.program.run_program import (
 )
 from assoc_hull.model.program.structure import (
     CompiledFeatures,
+    Program,
     PublishedProgram,
     Values,
     compile_program,
@@ -353,6 +356,100 @@ def test_numbers_that_are_read_tell_of_folds_and_of_the_centre_plane(shipped: Sh
     assert found.values.folds[here] == len(xyz)
     assert found.values.lowest[here] == xyz[:, 1].min() < -1.0
     assert np.flatnonzero(found.values.folds).tolist() == [here]
+
+
+def runner_in(arithmetic: str, program: Program) -> RunProgram:
+    """What runs a program in one of the two arithmetics."""
+    if arithmetic == "numpy":
+        return NumpyProgram(program)
+    pytest.importorskip("numba")
+    from assoc_hull.model.program.compiled_program import CompiledProgram
+
+    return CompiledProgram(program)
+
+
+@pytest.mark.parametrize("arithmetic", ["numpy", "compiled"])
+def test_what_a_run_has_written_is_put_back_and_nothing_else(
+    arithmetic: str, shipped: Shipped
+) -> None:
+    """Beside it may lie numbers that somebody else has written: they stay."""
+    found = program_of(shipped("bulk_carrier"))
+    assert found is not None
+    program, before = found.program, found.values
+    values, wanted = before.copy(), before.copy()
+    for name in NUMBERS:
+        getattr(values, name)[:] += 1
+        getattr(wanted, name)[:] += 1
+    rows, curves = np.unique(program.row)[5::7], np.arange(3, program.curves, 4)
+    watched = np.arange(1, len(program.watch), 2)
+    for items in (rows, program.watch[watched]):
+        wanted.xyz[items] = before.xyz[items]
+    wanted.gap[watched] = before.gap[watched]
+    for c in curves.tolist():
+        knots, met = (slice(*each[c : c + 2]) for each in (program.start, program.meet_start))
+        wanted.knot[knots] = before.knot[knots]
+        block = slice(9 * knots.start, 9 * knots.stop)
+        wanted.block[block] = before.block[block]
+        for name in ("at", "place", "segment"):
+            getattr(wanted, name)[met] = getattr(before, name)[met]
+        wanted.folds[c], wanted.lowest[c] = before.folds[c], before.lowest[c]
+    assert len(watched) > 0
+    run = ProgramRun(Doubt.NONE, -1, curves, rows, watched)
+    runner_in(arithmetic, program).restore(values, before, run)
+    same_numbers(values, wanted)
+
+
+@pytest.mark.parametrize("arithmetic", ["numpy", "compiled"])
+@pytest.mark.parametrize("side", [0, 1])
+def test_the_first_point_of_all_is_an_anchor_as_any_other(
+    arithmetic: str, side: int, shipped: Shipped
+) -> None:
+    """What rides with it alone goes where it goes."""
+    found = program_of(shipped("series60_70"))
+    assert found is not None
+    program, before = found.program, found.values.copy()
+    row = int(np.flatnonzero((program.anchor >= 0).any(axis=1))[0])
+    anchor, weight, start = program.anchor.copy(), program.weight.copy(), program.rider_start.copy()
+    anchor[row], weight[row] = (-1, -1), side
+    anchor[row, side] = 0
+    start[1:] += 1
+    rider = np.concatenate([[row], program.rider])
+    before.base[row], before.anchor_from[row, side] = before.xyz[row], before.xyz[0]
+    arrays = {"anchor": anchor, "weight": weight, "rider_start": start, "rider": rider}
+    for each in arrays.values():
+        each.setflags(write=False)
+    values, away = before.copy(), np.array([[0.0, 1e-6, 0.0]])
+    moved = write_points(values, np.array([0]), before.xyz[:1] + away)
+    run = runner_in(arithmetic, attrs.evolve(program, **arrays)).run(values, before, moved, NONE)
+    assert run.kept
+    assert row in run.rows.tolist()
+    np.testing.assert_allclose(values.xyz[row] - before.xyz[row], away[0], atol=1e-12)
+
+
+@pytest.mark.parametrize("arithmetic", ["numpy", "compiled"])
+def test_latent_meetings_that_come_as_near_as_may_be_are_doubted(
+    arithmetic: str, shipped: Shipped
+) -> None:
+    """They may be one crossing then; a little farther apart nothing is doubted."""
+    found = program_of(shipped("bulk_carrier"))
+    assert found is not None
+    program, before = found.program, found.values
+    one, other = program.meet_start[[2, 9]]
+    start = np.zeros(program.curves + 1, np.int64)
+    start[program.meet_curve[one] + 1 :] += 1
+    start[program.meet_curve[other] + 1 :] += 1
+    arrays = {
+        "pair_a": np.array([one]), "pair_b": np.array([other]), "pair_start": start,
+        "paired": np.zeros(2, np.int64),
+    }  # fmt: skip
+    for each in arrays.values():
+        each.setflags(write=False)
+    least = float(np.linalg.norm(before.place[one] - before.place[other]))
+    assert least > 0.0
+    for near, doubt in ((1.001 * least, Doubt.LATENT), (0.999 * least, Doubt.NONE)):
+        runner = runner_in(arithmetic, attrs.evolve(program, near=near, **arrays))
+        run = runner.run(before.copy(), before, NONE, NONE, np.arange(program.curves))
+        assert run.doubt is doubt
 
 
 def test_nil_has_a_sign_for_both_arithmetics() -> None:

@@ -106,6 +106,24 @@ def test_the_number_of_the_last_write_comes_back_when_all_is_taken_back(what: st
     assert column.share().writes == before
 
 
+@pytest.mark.parametrize("what", ["size", "name"])
+def test_what_was_shared_is_given_again_until_something_is_written(what: str) -> None:
+    """So states that differ in a few columns are the same in all others."""
+    table, journal = Named(), Journal()
+    table.resize(3)
+    column = table.columns[what]
+    before = column.share()
+    assert column.share(before) is before
+    if what == "size":
+        journal.put(table.size, [1], [2.0])
+    else:
+        journal.set(table.name, [1], ["b"])
+    after = column.share(before)
+    assert after is not before
+    assert list(after.data) == list(column.data) != list(before.data)
+    assert column.share(after) is after
+
+
 def test_an_interrupt_at_any_line_leaves_a_column_that_shows_what_is_written() -> None:
     """The array that is written to is the one that is shown, and what was shared stays."""
     lines, first = inspect.getsourcelines(Column._own)
