@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
+from typing import Any
 
 import attrs
 import numpy as np
@@ -415,7 +416,9 @@ def test_the_first_point_of_all_is_an_anchor_as_any_other(
     start[1:] += 1
     rider = np.concatenate([[row], program.rider])
     before.base[row], before.anchor_from[row, side] = before.xyz[row], before.xyz[0]
-    arrays = {"anchor": anchor, "weight": weight, "rider_start": start, "rider": rider}
+    arrays: dict[str, Any] = {
+        "anchor": anchor, "weight": weight, "rider_start": start, "rider": rider,
+    }  # fmt: skip
     for each in arrays.values():
         each.setflags(write=False)
     values, away = before.copy(), np.array([[0.0, 1e-6, 0.0]])
@@ -438,7 +441,7 @@ def test_latent_meetings_that_come_as_near_as_may_be_are_doubted(
     start = np.zeros(program.curves + 1, np.int64)
     start[program.meet_curve[one] + 1 :] += 1
     start[program.meet_curve[other] + 1 :] += 1
-    arrays = {
+    arrays: dict[str, Any] = {
         "pair_a": np.array([one]), "pair_b": np.array([other]), "pair_start": start,
         "paired": np.zeros(2, np.int64),
     }  # fmt: skip
