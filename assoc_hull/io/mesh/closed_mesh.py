@@ -15,6 +15,8 @@ from typing import Any
 
 import attrs
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from assoc_hull.analysis.net.curve_net import CurveNet
 from assoc_hull.arguments import choice, instance, text
@@ -81,7 +83,8 @@ class FiledMesh:
             It does not close, before or after it was rounded; a half may be open in the centre
             plane.
         """
-        places, tunnels = rounded(mesh.xyz * scale), mesh.report.tunnels
+        exact, tunnels = mesh.xyz * scale, mesh.report.tunnels
+        places = rounded(exact)
         end = min((each.first for each in mesh.bodies), default=len(mesh.triangle))
         every = [(0, end, 1, tunnels, "a file", "mend the lines there")]
         every += [
@@ -95,6 +98,11 @@ class FiledMesh:
             order = first + np.argsort(mesh.group[first:last], kind="stable")
             found = welded(places, mesh.triangle[order])
             report = examine_mesh(found.xyz / scale, found.face[:, ::sign], tunnels=holes)
+            if not mesh.half and not report.sound:
+                found = welded(
+                    _collapsed(exact, places, mesh.triangle[order]), mesh.triangle[order]
+                )
+                report = examine_mesh(found.xyz / scale, found.face[:, ::sign], tunnels=holes)
             if report.off_centre if mesh.half else not report.sound:
                 require_closed(report, what, mesh.half, remedy)
             xyz.append(found.xyz)
@@ -116,6 +124,26 @@ class FiledMesh:
         vector = Triangles(self.xyz, self.triangle).area_vectors()
         size = np.sqrt((vector**2).sum(axis=1))[:, None]
         return np.asarray(vector / np.where(size > 0.0, size, 1.0))
+
+
+_SHORT = 4.0
+"""Times what rounding moves a place by: an edge as short as that may not survive it."""
+
+
+def _collapsed(exact: FloatArray, places: FloatArray, triangle: IntArray) -> FloatArray:
+    """Put both ends of edges that rounding may make nothing of at one rounded place.
+
+    Where only one of several short edges at a corner vanishes, the slivers that are left share an
+    edge between four.
+    """
+    edge = np.concatenate([triangle[:, [0, 1]], triangle[:, [1, 2]], triangle[:, [2, 0]]])
+    away = exact[edge[:, 0]] - exact[edge[:, 1]]
+    limit = _SHORT * float(np.abs(places - exact).max(initial=0.0))
+    short = edge[(away * away).sum(axis=1) <= limit * limit]
+    links = coo_array((np.ones(len(short)), (short[:, 0], short[:, 1])), (len(exact), len(exact)))
+    _, part = connected_components(links, directed=False)
+    _, first, part = np.unique(part, return_index=True, return_inverse=True)
+    return np.asarray(places[first[part]])
 
 
 def _stl(mesh: FiledMesh) -> bytes:

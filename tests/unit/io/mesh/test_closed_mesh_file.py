@@ -187,6 +187,31 @@ def test_triangles_that_rounding_makes_nil_are_left_out_on_both_sides(
     assert loaded(tmp_path / "ship.stl").is_watertight
 
 
+def test_a_corner_that_rounding_folds_upon_itself_becomes_one_point(
+    mesh: ClosedMesh, tmp_path: Path
+) -> None:
+    """Of three points .3 um apart two fall together: four triangles would share an edge."""
+    ring = [
+        (0.0, 0.0),
+        (10.0, 0.0),
+        (10.0, 3.4),
+        (10.0, 3.4 + 3e-7),
+        (10.0, 3.4 + 2e-8),
+        (0.0, 3.4),
+    ]
+    xyz = np.array([*((x, 0.0, z) for x, z in ring), (5.0, 2.0, 1.7), (5.0, -2.0, 1.7)])
+    port, starboard, count = len(ring), len(ring) + 1, len(ring)
+    pairs = [(i, (i + 1) % count) for i in range(count)]
+    sides = [[j, i, port] for i, j in pairs] + [[i, j, starboard] for i, j in pairs]
+    none = np.zeros(len(sides), np.int64)
+    folded = attrs.evolve(mesh, xyz=xyz, triangle=np.array(sides), group=none, cell=none)
+    report = write_mesh(folded, tmp_path / "corner.stl")
+    found = loaded(tmp_path / "corner.stl")
+    assert found.is_watertight
+    assert (report.left_out, len(found.faces)) == (4, 8)
+    assert found.volume == pytest.approx(10.0 * 3.4 * 4.0 / 3.0, rel=1e-6)
+
+
 def test_a_closed_mesh_becomes_a_net_again(tmp_path: Path) -> None:
     """`read` cuts stations, waterlines and buttocks from the STL, without its deck or mirror."""
     made = closed_mesh(ah.examples.wigley(stations=15, waterlines=8))
