@@ -401,7 +401,7 @@ def _loaded(source: str | os.PathLike[str]) -> tuple[Any, str]:
         file = Path(file_path(source, "in a design"))
         where = f"in {file}"
         try:
-            text = file.read_text(encoding="utf-8")
+            text = file.read_text(encoding="utf-8-sig")
         except OSError as error:
             raise BadInputError(
                 f"{error.strerror or error}", where, "check name and place"

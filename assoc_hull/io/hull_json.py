@@ -174,7 +174,7 @@ def _text(path: Path) -> str:
     if path.is_dir():
         raise BadInputError("this is a folder", f"at {path}", "give the name of a .hull.json file")
     try:
-        return regular_file(path).read_bytes().decode("utf-8")
+        return regular_file(path).read_bytes().decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise BadInputError(
             f"byte {error.start} is no UTF-8 text", f"in {path}", "give a .hull.json file"

@@ -567,7 +567,7 @@ def read_script(path: str | PathLike[str]) -> dict[str, Any]:
     """
     file = Path(file_path(path, "in vary"))
     try:
-        found = json.loads(file.read_text(encoding="utf-8"), object_pairs_hook=once)
+        found = json.loads(file.read_text(encoding="utf-8-sig"), object_pairs_hook=once)
     except OSError as error:
         raise BadInputError(
             f"script {file}: {error.strerror or error}", "in vary", "check name and place"

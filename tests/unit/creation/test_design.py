@@ -63,6 +63,8 @@ def test_json_from_a_file(tmp_path: Any) -> None:
     file = tmp_path / "ship.json"
     file.write_text(design().to_json(), encoding="utf-8")
     assert Design.from_json(file) == Design.from_json(str(file)) == design()
+    file.write_text(design().to_json(), encoding="utf-8-sig")
+    assert Design.from_json(file) == design(), "editors of Windows put a mark before it"
 
 
 def test_the_schema_takes_what_is_written() -> None:

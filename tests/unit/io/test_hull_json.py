@@ -98,6 +98,13 @@ def test_a_name_may_hold_any_character(tmp_path: Path) -> None:
     assert read_hull_json(str(path)).particulars.name == name
 
 
+def test_a_byte_order_mark_is_passed_over(state: HullState, text: str, tmp_path: Path) -> None:
+    """Editors of Windows put one before the text."""
+    path = tmp_path / "ship.hull.json"
+    path.write_text(text, encoding="utf-8-sig")
+    assert fingerprint(read_hull_json(path)) == fingerprint(state)
+
+
 def test_what_json_cannot_hold_is_refused() -> None:
     """Neither nan nor half a character reaches a file."""
     with pytest.raises(BadInputError):

@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, cast
 
 import attrs
@@ -35,7 +36,7 @@ from assoc_hull.variation.parameters.parameter_fields import (
 from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.parameters.parent import parent_of
 from assoc_hull.variation.parameters.value_limits import hull_box, present_values
-from assoc_hull.variation.request import TOLERANCE
+from assoc_hull.variation.request import TOLERANCE, read_script
 from tests.conftest import Shipped
 from tests.long_forms import long_form
 
@@ -415,3 +416,10 @@ def test_a_flat_of_bottom_without_a_parallel_body_is_refused_for_that(shipped: S
     for asked in (0.01, 99.0):
         with pytest.raises(BadInputError, match="no parallel middle body"):
             flat_of_bottom_layer(lacking, asked, Layout())
+
+
+def test_a_script_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:
+    """Editors of Windows put one before the text."""
+    path = tmp_path / "wider.json"
+    path.write_text('{"set": {"breadth": 33.0}}', encoding="utf-8-sig")
+    assert read_script(path) == {"name": "wider", "set": {"breadth": 33.0}}
