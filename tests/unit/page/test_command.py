@@ -1,5 +1,6 @@
 """The command that serves a page: it tells the address, serves, and ends with the keyboard."""
 
+import functools
 import json
 import signal
 import subprocess
@@ -19,7 +20,13 @@ def test_the_command_serves_until_it_is_stopped(shipped: Shipped, tmp_path: Path
     path = tmp_path / "ship.hull"
     shipped("wigley").save(path)
     given = [str(path), "--no-browser", "--json", "--author", "anna"]
-    with subprocess.Popen([*COMMAND, *given], stdout=subprocess.PIPE, text=True) as run:
+    with subprocess.Popen(
+        [*COMMAND, *given],
+        stdout=subprocess.PIPE,
+        text=True,
+        # what a shell puts in the background ignores Ctrl+C, and so would the command
+        preexec_fn=functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL),
+    ) as run:
         try:
             assert run.stdout is not None
             text = ""
