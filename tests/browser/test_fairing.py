@@ -29,7 +29,8 @@ def test_a_window_is_faired_as_its_ghost_showed(open_page: Open, hull: ah.Hull) 
     box.get_by_role("button", name=CALLED).first.click()
     assert hand.ask("p => p.store.net.points.get(p.store.selection.row).name") == CALLED
     choose(hand, POINT)
-    box.locator("input[type=range]").fill("50")
+    box.locator("input[type=range]").fill("17")
+    expect(box).to_contain_text("waviness of 5.0 mm", use_inner_text=True)  # a round figure
     box.get_by_text("Nothing is changed yet").wait_for()
     shown = hand.ask("p => [...p.store.ghost.curves.keys()]")
     expect(box).to_contain_text(POINT, use_inner_text=True)

@@ -5,7 +5,8 @@ import {Offer, costWords} from "./propose.js";
 import {curveOf} from "./ways.js";
 import {millimetres, signed, typedNumber} from "./units.js";
 
-const LEAST = 1e-4, TIMES = 2000; // m: the slider goes from 0.1 to 200 mm
+/** mm: round figures, as a person asks for them, from 0.1 to 200. */
+const WAVES = [[0.1, 0.1, 0.9], [1, 0.5, 10], [12, 2, 20], [25, 5, 50], [60, 10, 100], [120, 20, 200]].flatMap(([from, step, to]) => Array.from({length: Math.round((to - from) / step) + 1}, (_, i) => Number((from + i * step).toFixed(1))));
 
 /** @typedef {{line: string, springs: number, ratio: number, at: string, inflections: number | null}} Wavy */
 
@@ -17,13 +18,13 @@ export class Fairing extends Offer {
     /** Of which state the list is, and what says that it is old. */
     this.listed = -1;
     this.old = paragraph("");
-    this.slider = make("input", {type: "range", min: "0", max: "100", step: "1", value: "40", ariaLabel: "waviness that is taken out, mm", title: "How far given points may be off the fair line, usually; so much is taken out", oninput: () => this.#look()});
+    this.slider = make("input", {type: "range", min: "0", max: String(WAVES.length - 1), step: "1", value: String(WAVES.indexOf(2)), ariaLabel: "waviness that is taken out, mm", title: "How far given points may be off the fair line, usually; so much is taken out", oninput: () => this.#look()});
     this.noise = paragraph("");
     this.go = button("Apply", () => this.#make());
     box.append(button("List the waviest lines", () => this.#list()), form(this.noise, this.slider, button("Preview", () => this.#look()), this.go, button("Give up", () => page.dropGhost())), this.words, this.old, this.list);
   }
 
-  #value() { return LEAST * TIMES ** (Number(this.slider.value) / 100); }
+  #value() { return WAVES[Number(this.slider.value)] / 1e3; }
 
   render() {
     super.render();
@@ -77,7 +78,7 @@ export class Fairing extends Offer {
     const list = (/** @type {string} */ title, /** @type {HTMLElement[]} */ rows) => rows.length ? [paragraph(title), ...rows] : [];
     this.list.replaceChildren(table,
       ...list("Unfair places", unfair.map((each) => link(`${each.point} on ${each.line}: a ${each.residual > each.expected ? "hollow" : "hump"} of ${millimetres(Math.abs(each.residual - each.expected))} beside its neighbours, ${each.ratio.toFixed(1)} times the usual`, () => this.#fly(each.point, each.line)))),
-      ...list("Points that their lines do not bear out", points.map((each) => link(`${each.point}: ${millimetres(Math.abs(each.off))} too far ${each.off > 0 ? "out" : "in"}, score ${each.score.toFixed(1)}${each.alarm ? "" : " (not called wrong)"}`, () => this.#fly(each.point, each.point.split(" x ")[0])))));
+      ...list(points.some(({alarm}) => alarm) ? "Points that their lines do not bear out" : "Points farthest off their fair lines; none so far that it looks wrong", points.map((each) => link(`${each.point}: ${millimetres(Math.abs(each.off))} too far ${each.off > 0 ? "out" : "in"}, score ${each.score.toFixed(1)}${each.alarm ? ": looks wrong" : ""}`, () => this.#fly(each.point, each.point.split(" x ")[0])))));
   }
 
   /** Goes to a place, near enough to see it. @param {string} point @param {string} line */
