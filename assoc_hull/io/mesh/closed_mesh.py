@@ -141,8 +141,8 @@ def _collapsed(exact: FloatArray, places: FloatArray, triangle: IntArray) -> Flo
     limit = _SHORT * float(np.abs(places - exact).max(initial=0.0))
     short = edge[(away * away).sum(axis=1) <= limit * limit]
     links = coo_array((np.ones(len(short)), (short[:, 0], short[:, 1])), (len(exact), len(exact)))
-    _, part = connected_components(links, directed=False)
-    _, first, part = np.unique(part, return_index=True, return_inverse=True)
+    _, corner = connected_components(links, directed=False)
+    _, first, part = np.unique(corner, return_index=True, return_inverse=True)
     return np.asarray(places[first[part]])
 
 
