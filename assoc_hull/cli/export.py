@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from assoc_hull.analysis.production_arcs import ArcLines
 from assoc_hull.cli.arguments import Commands, add_command, add_hull, add_json, parse_length
@@ -17,9 +16,6 @@ from assoc_hull.cli.problems import check_other_target
 from assoc_hull.errors import BadInputError, NotSoundError
 from assoc_hull.hull.sources import open as open_hull
 from assoc_hull.io.write_file import form_by_ending
-
-if TYPE_CHECKING:
-    pass
 
 __all__ = [
     "add_export",

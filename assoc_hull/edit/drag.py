@@ -47,7 +47,7 @@ from assoc_hull.model.dirty_nodes import CLEAN
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import free_axes
 from assoc_hull.model.objects import Point
-from assoc_hull.model.program.run_program import Doubt, ProgramRun, features_off, write_points
+from assoc_hull.model.program.run_program import Doubt, ProgramRun, features_left, write_points
 from assoc_hull.model.program.structure import KEEP_THEIR_SHAPE
 from assoc_hull.model.tables import HullState
 
@@ -227,11 +227,10 @@ class _QuickWay:
         if run.doubt is not Doubt.FEATURE:
             return run.kept
         program, values = self.numbers.published.program, self.numbers.values
-        left, off = features_off(program, values, run.rows)
-        bent = off > program.features.limit[left] * (1.0 - 1e-9)
+        left, off = features_left(program, values, run.rows)
         # An arc is drawn on its moved ends, and measured off there: only the edit itself can tell.
-        known = np.isin(program.features.shape[left[bent]], KEEP_THEIR_SHAPE)
-        return bool(known.all() and (off[bent] > self.state.tolerances.adoption).all())
+        known = np.isin(program.features.shape[left], KEEP_THEIR_SHAPE)
+        return bool(known.all() and (off > self.state.tolerances.adoption).all())
 
     def _has_arrived(self, amount: float) -> bool:
         """Tell whether the point came where it was pulled, so that no more sub-steps follow."""

@@ -28,8 +28,8 @@ from assoc_hull.model.program.run_program import (
     NumpyProgram,
     ProgramRun,
     RunProgram,
-    _features_left,
     differs,
+    features_left,
     run_program,
     write_points,
 )
@@ -276,7 +276,7 @@ def test_points_are_off_a_feature_by_what_it_says_itself(arithmetic: str, shippe
                     if places_off(features[i], values.xyz[list(features[i].points)]).max()
                     > table.limit[i]
                 ]  # fmt: skip
-                told = _features_left(found.program, values, np.array([row]))
+                told, _ = features_left(found.program, values, np.array([row]))
                 assert told.tolist() == left
             else:
                 off = compiled_off(table, number, values.xyz)

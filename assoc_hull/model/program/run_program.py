@@ -38,7 +38,7 @@ __all__ = [
     "RunProgram",
     "begins",
     "curve_data",
-    "features_off",
+    "features_left",
     "ranges",
     "run_program",
     "run_tile",
@@ -586,7 +586,7 @@ def _doubts(
     away = values.place[program.pair_a[pairs]] - values.place[program.pair_b[pairs]]
     near = (away * away).sum(axis=1) <= program.near**2
     yield Doubt.LATENT, program.meet_curve[program.pair_a[pairs[near]]]
-    yield Doubt.FEATURE, _features_left(program, values, rows)
+    yield Doubt.FEATURE, features_left(program, values, rows)[0]
 
 
 def _gaps(program: Program, values: Values, watched: IntArray) -> FloatArray:
@@ -622,19 +622,15 @@ def _tangents(program: Program, values: Values, meeting: IntArray) -> FloatArray
     return found
 
 
-def _features_left(program: Program, values: Values, rows: IntArray) -> IntArray:
-    """Give the features that points which own them have come off."""
-    found, off = features_off(program, values, rows)
-    # A point that is at the limit, but for rounding, is left to the full way.
-    return found[~(off <= program.features.limit[found] * (1.0 - 1e-9))]
-
-
-def features_off(program: Program, values: Values, rows: IntArray) -> tuple[IntArray, FloatArray]:
-    """Give the features that own points (k,), ascending, and how far theirs lie off them, m."""
+def features_left(program: Program, values: Values, rows: IntArray) -> tuple[IntArray, FloatArray]:
+    """Give the features that points (k,) which own them have come off, and how far, m."""
     features, off = program.features, list[float]()
     found = np.unique(ranges(features.owner_start, features.owner, rows))
     for each in found.tolist():
         span = slice(features.start[each], features.start[each + 1])
         shape, numbers = int(features.shape[each]), features.numbers[each]
         off.append(off_shapes(shape, numbers, values.xyz[features.point[span]]).max())
-    return found, np.array(off, np.float64)
+    far = np.array(off, np.float64)
+    # A point that is at the limit, but for rounding, is left to the full way.
+    left = ~(far <= features.limit[found] * (1.0 - 1e-9))
+    return found[left], far[left]
