@@ -182,7 +182,7 @@ _PUBLIC: dict[str, dict[str, tuple[str, ...]]] = {
     "study": {
         "hull.studies": ("Study",),
         "study.pareto": ("pareto_front",),
-        "study.sampling": ("grid", "sample"),
+        "study.design": ("grid", "sample"),
     },
 }
 """What each public package offers: modules, and the names that are public of them."""

@@ -4,9 +4,9 @@
 own for the first is made by `parameter`.
 """
 
-from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.curve_transform import CurveTransform
 from assoc_hull.analysis.form.floating_shape import Screw
+from assoc_hull.analysis.form.form_parameters import CATALOGUE
 from assoc_hull.analysis.form.parameter import (
     Absent,
     FormParameter,

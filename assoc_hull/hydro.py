@@ -5,7 +5,6 @@ Besides, hydrostatics of a triangulated body (`mesh_flotation`), the parameters 
 (`holtrop`).
 """
 
-from assoc_hull.analysis.derivatives.given_motion import Moves
 from assoc_hull.analysis.derivatives.hydrostatic_derivatives import Derivatives
 from assoc_hull.analysis.derivatives.parameters import (
     DRAUGHT,
@@ -14,6 +13,7 @@ from assoc_hull.analysis.derivatives.parameters import (
     HEEL,
     TRIM,
     Deformation,
+    Moves,
     PointMove,
     Position,
     Rates,

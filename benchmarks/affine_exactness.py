@@ -17,7 +17,7 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.hull.variants import Variation
 from assoc_hull.variation.parameters.compose_map import compose_map
 from assoc_hull.variation.parameters.field_layout import Layout

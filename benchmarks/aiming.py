@@ -18,9 +18,9 @@ import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.errors import UnreachableError
+from assoc_hull.variation.aiming.newton_iteration import StoppingRule
 from assoc_hull.variation.aiming.reach_targets import problem_of
 from assoc_hull.variation.aiming.report import AimReport
-from assoc_hull.variation.aiming.stopping_rule import StoppingRule
 from assoc_hull.variation.aiming.target_solver import solve_targets
 from assoc_hull.variation.request import VariationRequest
 from benchmarks.ships import duisburg_test_case

@@ -12,8 +12,7 @@ from functools import partial
 import numpy as np
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.cad.faces import sew_surfaces
-from assoc_hull.io.cad.hull_faces import HullFaces
+from assoc_hull.io.cad.faces import HullFaces, sew_surfaces
 from assoc_hull.io.cad.kernel import MILLIMETRES, quiet_kernel
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.slicing.surface_lines import slice_surfaces

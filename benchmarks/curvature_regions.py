@@ -14,7 +14,7 @@ import numpy as np
 from scipy.interpolate import NdBSpline, bisplev
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.area_elements import bernstein_values
+from assoc_hull.geometry.patches.area_integrals import bernstein_values
 from assoc_hull.geometry.patches.areas_by_sign import SignAreas, sign_areas
 from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.cell_subdivision import subdivide_patches

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.tables import HullState

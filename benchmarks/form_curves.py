@@ -16,7 +16,7 @@ from scipy.optimize import fsolve
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curves.chain import straight_vertices
 from assoc_hull.geometry.form_curves.curve import FormEnd, form_vertices
-from assoc_hull.geometry.form_curves.tangents import fairest_tangents
+from assoc_hull.geometry.form_curves.shape import fairest_tangents
 from benchmarks.clock import Figure, side_by_side
 
 __all__ = ["figures"]

@@ -17,7 +17,7 @@ from assoc_hull.geometry.floating.immersion import (
 )
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.surfaces.coons import CoonsCells, CoonsStrips
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.network import curve_data
 from tests.nets import wigley_net
 
 __all__ = ["NetToMeasure", "net"]

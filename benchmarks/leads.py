@@ -26,7 +26,7 @@ import assoc_hull as ah
 from assoc_hull.edit.displacement_field import level_with_flats
 from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.net_battens import fairable_rows
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import AssocHullError, PointRoleError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.splines.distance import closest_points

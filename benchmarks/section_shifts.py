@@ -24,8 +24,7 @@ from assoc_hull.variation.comparing.line_fairness import (
     measure_fairness,
 )
 from assoc_hull.variation.shifts.shift_hull import ShiftWork
-from assoc_hull.variation.shifts.shift_request import ShiftRequest
-from assoc_hull.variation.shifts.shift_terms import SHIFT_SHAPES, ShiftShape
+from assoc_hull.variation.shifts.shift_terms import SHIFT_SHAPES, ShiftRequest, ShiftShape
 from benchmarks.ships import duisburg_test_case
 
 __all__ = ["main"]

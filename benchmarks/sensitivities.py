@@ -16,7 +16,7 @@ import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.analysis.derivatives.curve_tangents import curve_tangents
-from assoc_hull.analysis.derivatives.given_motion import Moves
+from assoc_hull.analysis.derivatives.parameters import Moves
 from assoc_hull.analysis.derivatives.reused_layout import (
     flotation_at_points,
     flotation_with_layout_of,

@@ -19,8 +19,7 @@ import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fitting.basis import clamped_knots
 from assoc_hull.geometry.fitting.fit_input import Samples
-from assoc_hull.geometry.fitting.fit_surface import even_breaks, fit_surface
-from assoc_hull.geometry.fitting.least_squares import gram, solve_controls
+from assoc_hull.geometry.fitting.fit_surface import even_breaks, fit_surface, gram, solve_controls
 from assoc_hull.hull import Hull
 from assoc_hull.surface.blocks.fit_net import share_kept
 from benchmarks.clock import Figure, side_by_side

@@ -19,9 +19,9 @@ import assoc_hull as ah
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray, PointKind
 from assoc_hull.geometry.fairness.combs import DEAD_BAND, comb_integrals, curvature_sign_changes
-from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.geometry.splines.segments import sample
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.carrying.carry_hull import apply_map
 from assoc_hull.variation.certificate.fold_check import certify

@@ -14,9 +14,9 @@ import numpy as np
 from assoc_hull.edit.recut.driver_image import CurveImages, image_misfit
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.geometry.splines.segments import evaluate
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.fields.layers import Layer
 from assoc_hull.variation.fields.space_map import VariationMap

@@ -6,7 +6,7 @@ that of the code.
 
 from collections.abc import Iterator
 
-from assoc_hull.analysis.form.catalogue import CATALOGUE, GIVEN, TITLES, by_table
+from assoc_hull.analysis.form.form_parameters import CATALOGUE, GIVEN, TITLES, by_table
 from assoc_hull.analysis.form.parameter import SHAPE, FormParameter
 
 PAGE = "parameters.md"

@@ -3,7 +3,7 @@
 import numpy as np
 
 from assoc_hull.geometry.curves import SplineBatch
-from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.hull import Hull
 
 

@@ -23,7 +23,7 @@ import attrs
 import assoc_hull as ah
 from assoc_hull.edit.session import Edit
 from assoc_hull.io.hull_file.storage import HullFile
-from assoc_hull.model.definition.hash_tree import root_of
+from assoc_hull.model.definition.fingerprint import root_of
 
 __all__ = ["Tally", "run"]
 

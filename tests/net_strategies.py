@@ -17,9 +17,9 @@ from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 import assoc_hull as ah
-from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import GapsName, PolicyName
 from assoc_hull.edit.session import Edit
+from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json

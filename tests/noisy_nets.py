@@ -14,7 +14,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.hull import Hull
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HullState
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import SplineBatch
-from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.hull import Hull
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState

@@ -23,9 +23,8 @@ from assoc_hull.analysis.net.strip_boundaries import (
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.integrals.area_moments import section_area
 from assoc_hull.geometry.numeric.polynomials import hermite
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.geometry.splines.paths import Bit, Paths, shape_paths
-from assoc_hull.geometry.splines.segments import segment_start
+from assoc_hull.geometry.splines.segments import derivative, evaluate, segment_start
 
 __all__ = ["plain_layout", "plain_parallel_slabs"]
 

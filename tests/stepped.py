@@ -7,15 +7,15 @@ from typing import Any
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.derivatives.hydrostatic_derivatives import TangentFlotation
 from assoc_hull.analysis.derivatives.parameters import Parameter, Position, ShapeParameter
-from assoc_hull.analysis.derivatives.tangent_flotation import TangentFlotation
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition, planes_of
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation, header_of
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import values_at
 from assoc_hull.analysis.hydrostatics.record import FIELDS, HydrostaticHeader
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HasState
 from tests.complex_loft import as_batch
 

@@ -20,7 +20,7 @@ MOST = {
     # columns are read through `graph.table`, by `column[row]`; a surface that is laid out and one
     # that is put on other lines are one thing, `net_surface`
     "hydrostatics": 31,
-    # what is made of the tables is kept by `graph.derived`, behind the lock of `graph.gate`
+    # what is made of the tables is kept by `graph.derived`, behind the lock of `graph.derived`
     # its result stands in a module that loads nothing of studies and surfaces
     # counts of crossings by pairs of lines are `model.births`, arrays of their own
     # stages of a set, the choice of a plan and the combs of its lines are modules of their own

@@ -21,8 +21,8 @@ from assoc_hull.cli.arguments import Commands, add_command, add_json
 from assoc_hull.cli.hull_words import adoption_words, edit_words, hull_words, largest_gap
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.edit.explain.causes import Why
-from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit
+from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import BadInputError, MissingExtraError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull

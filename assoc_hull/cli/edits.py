@@ -43,9 +43,9 @@ from assoc_hull.cli.typed_edits import is_operation, typed_edit, unknown_edit
 from assoc_hull.edit.explain.causes import Why
 from assoc_hull.edit.explain.compare_states import state_at
 from assoc_hull.edit.explain.preview import LineChange, Preview
-from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import carry_out
 from assoc_hull.edit.session import Edit
+from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError
 from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import open as open_hull

@@ -177,7 +177,7 @@ def _catalogue(arguments: argparse.Namespace) -> int:
 
 def _entries(arguments: argparse.Namespace) -> list[FormParameter]:
     """Give the entries wanted."""
-    from assoc_hull.analysis.form.catalogue import CATALOGUE
+    from assoc_hull.analysis.form.form_parameters import CATALOGUE
 
     symbols = _symbols(arguments)
     if symbols is not None:

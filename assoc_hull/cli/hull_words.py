@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import attrs
 
-from assoc_hull.edit.report import SAME_MOVEMENT, EditReport, Movement
+from assoc_hull.edit.step import SAME_MOVEMENT, EditReport, Movement
 from assoc_hull.hull import Hull
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.kinds import OWN, Sort

@@ -16,7 +16,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.explain.causes import Why
-from assoc_hull.graph.gate import Gate
+from assoc_hull.graph.derived import Gate
 from assoc_hull.io.reports import Tell, no_progress
 
 __all__ = ["can_print", "emit", "plain", "progress", "progress_bar", "say", "why_document"]
@@ -51,7 +51,7 @@ def plain(value: Any) -> Any:
     Examples
     --------
     >>> from assoc_hull.cli.output import plain
-    >>> from assoc_hull.edit.report import Movement
+    >>> from assoc_hull.edit.step import Movement
     >>> plain([Movement("P", float("inf"), (0.0, 1.0, 2.0)), Path("a")])
     [{'point': 'P', 'distance': None, 'place': [0.0, 1.0, 2.0], 'name': ''}, 'a']
     """

@@ -104,7 +104,7 @@ def _panels(arguments: argparse.Namespace) -> int:
 def _check_targets(arguments: argparse.Namespace) -> None:
     """Refuse, before anything is computed, what could not be written."""
     if arguments.out is not None:
-        from assoc_hull.io.panels.files import panel_form_of
+        from assoc_hull.io.panels.formats import panel_form_of
 
         panel_form_of(arguments.out, arguments.format)
         check_other_target(arguments.out, arguments.hull)
@@ -131,7 +131,7 @@ def _saved(mesh: PanelMesh, arguments: argparse.Namespace) -> list[str]:
     """Write mesh and picture, where they were asked; name the files."""
     saved: list[Path] = []
     if arguments.out is not None:
-        from assoc_hull.io.panels.files import write_panels
+        from assoc_hull.io.panels.formats import write_panels
 
         with progress(f"writing {arguments.out}"):
             write_panels(mesh, arguments.out, arguments.format)

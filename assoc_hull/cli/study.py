@@ -18,7 +18,7 @@ from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
     from assoc_hull.hull.studies import Study
-    from assoc_hull.study.sampling import Sample
+    from assoc_hull.study.design import Sample
 
 __all__ = ["add_study"]
 
@@ -123,7 +123,7 @@ def _study(arguments: argparse.Namespace) -> int:
 def _asked(arguments: argparse.Namespace) -> dict[str, Any]:
     """Put together what is asked for; options go before what the file says."""
     from assoc_hull.io.tables.study import read_rows
-    from assoc_hull.study.sampling import Sample
+    from assoc_hull.study.design import Sample
     from assoc_hull.variation.request import read_script
 
     asked: dict[str, Any] = read_script(arguments.script) if arguments.script else {}
@@ -162,7 +162,7 @@ def _asked(arguments: argparse.Namespace) -> dict[str, Any]:
 
 def _drawn(ranges: dict[str, tuple[float, ...]], arguments: argparse.Namespace) -> Sample:
     """Draw values, or lay them out as a grid, where all ask for one."""
-    from assoc_hull.study.sampling import grid, sample
+    from assoc_hull.study.design import grid, sample
 
     grids = [name for name, ends in ranges.items() if len(ends) > 2]
     if not grids:

@@ -34,9 +34,8 @@ from assoc_hull.display import ShownAsText
 from assoc_hull.errors import AssocHullError, BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
-from assoc_hull.geometry.floating.sections import cross_section, sections_below
-from assoc_hull.geometry.floating.slices import integrate_slice
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.floating.sections import cross_section, integrate_slice, sections_below
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.line_layout import layout_at

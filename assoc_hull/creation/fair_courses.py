@@ -25,7 +25,7 @@ import numpy as np
 from assoc_hull.analysis.fairness.fair_solution import linear_algebra
 from assoc_hull.creation.design import Design
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.fairness.batten import batten_coefficients
+from assoc_hull.geometry.fairness.criteria import batten_coefficients
 from assoc_hull.geometry.form_curves.chain import FormChain
 from assoc_hull.geometry.form_curves.curve import form_at
 from assoc_hull.geometry.form_curves.shape import least_coordinate
@@ -33,9 +33,11 @@ from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.forms.courses import course_vertices
 from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.line_layout import layout_at
-from assoc_hull.model.forms.section_pieces import SectionCurves, SectionPieces, SectionShape
 from assoc_hull.model.forms.sections import (
+    SectionCurves,
     SectionEnds,
+    SectionPieces,
+    SectionShape,
     bulb_pieces,
     parts_at_draught,
     topside_pieces,

@@ -18,9 +18,11 @@ from assoc_hull.creation.fitted_courses import distances
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.form_curves.curve import form_at
 from assoc_hull.model.forms.form_values import Forms
-from assoc_hull.model.forms.section_pieces import SectionCurves, SectionPieces, SectionShape
 from assoc_hull.model.forms.sections import (
+    SectionCurves,
     SectionEnds,
+    SectionPieces,
+    SectionShape,
     bulb_pieces,
     parts_at_draught,
     topside_pieces,

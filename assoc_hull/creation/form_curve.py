@@ -30,9 +30,9 @@ from assoc_hull.geometry.form_curves.curve import (
     end_vertices,
     form_values,
 )
-from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.geometry.form_curves.middle_vertex import (
+from assoc_hull.geometry.form_curves.integrals import (
     fair_vertex,
+    form_integrals,
     middle_vertex,
     required_middle,
     slide_vertex,
@@ -40,15 +40,13 @@ from assoc_hull.geometry.form_curves.middle_vertex import (
 )
 from assoc_hull.geometry.form_curves.shape import (
     ENERGIES,
-    form_energy,
-    form_inflections,
-    form_length,
-)
-from assoc_hull.geometry.form_curves.tangents import (
     FASTEST,
     SLOWEST,
     chord_lengths,
     fairest_tangents,
+    form_energy,
+    form_inflections,
+    form_length,
     usual_tangents,
 )
 

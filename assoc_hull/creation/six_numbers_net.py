@@ -21,7 +21,7 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.lines.add_line import add_line
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, OutOfRangeError, RefusedEditError
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.two_halves import half_fault, half_number
 from assoc_hull.model.tables import HullState

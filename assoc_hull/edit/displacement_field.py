@@ -17,7 +17,7 @@ import numpy as np
 from assoc_hull.edit.hull_normals import SHORT, free_normals, normals_at
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.graph.derived import Objects
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address

@@ -34,7 +34,7 @@ from assoc_hull.edit.write_lock import PATIENCE, WriteLock
 from assoc_hull.errors import AssocHullError, BadInputError, NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import IntArray, freeze
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.network import distinct
+from assoc_hull.graph.run_update import distinct
 from assoc_hull.model.change import change_of
 from assoc_hull.model.index import Index, build_index, index_columns
 from assoc_hull.model.tables import HasState, HullState, copy_into, copy_state

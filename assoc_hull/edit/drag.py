@@ -34,10 +34,9 @@ from assoc_hull.edit.modifications.points import PointFreedom
 from assoc_hull.edit.modifications.pull import curves_to_hold, pull_field
 from assoc_hull.edit.published_program import LiveNumbers, published_program
 from assoc_hull.edit.recording import Settings
-from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit, refusal_of
 from assoc_hull.edit.shapes import HullShapes, chosen_curves, joined, section_areas
-from assoc_hull.edit.step import Step
+from assoc_hull.edit.step import EditReport, Step
 from assoc_hull.edit.write_lock import WriteLock
 from assoc_hull.errors import AssocHullError, BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze

@@ -1,8 +1,21 @@
-"""Fields of displacement: carried out together, in sub-steps where they are large."""
+"""What is carried out in sub-steps: fields of displacement, drawn runs, areas that are kept.
+
+Runs that an edit draws: whether the hull has taken them, and the features that they are.
+
+A run is asked for as places of points, kinds and a field. What an update does besides (a crossing
+that comes, a gap that is mended) may put a point beside it: that refuses the edit.
+
+Hollows that an edit spreads: whether their areas are kept once all has followed.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import (
+    Callable,
+    Iterable,
+    Iterator,
+    Sequence,
+)
 
 import attrs
 import numpy as np
@@ -17,11 +30,15 @@ from assoc_hull.edit.displacement_field import (
     sub_step_count,
     unreached,
 )
-from assoc_hull.edit.followup.detach_curves import detach_rows
+from assoc_hull.edit.followup.settle_features import circle_side, drawn_feature
+from assoc_hull.edit.followup.take_up_definitions import detach_rows
 from assoc_hull.edit.modification import Modification, Pending, Work
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.polylines.drawn_run import DrawnRun
+from assoc_hull.geometry.splines.segments import derivative, evaluate
 from assoc_hull.graph.journal import Journal, distinct
 from assoc_hull.model.address import address
+from assoc_hull.model.features import Feature
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.network import bits_differ
@@ -29,7 +46,189 @@ from assoc_hull.model.node import Node
 from assoc_hull.model.program.structure import Program, Values
 from assoc_hull.model.tables import HullState
 
-__all__ = ["FieldMoves"]
+__all__ = [
+    "AskedRun",
+    "DrawnRuns",
+    "FieldMoves",
+    "SpreadArea",
+    "SpreadAreas",
+    "area_beside",
+    "features_on",
+    "points_between",
+]
+
+_ON = 1e-9
+"""Times `Tolerances.factor`: points of a run lie on it within this (m)."""
+
+_SHORTEST = 1e-3
+"""A straight run of this part of the length of the ship is a feature."""
+
+
+@attrs.frozen(eq=False)
+class AskedRun:
+    """A run that is asked for.
+
+    Attributes
+    ----------
+    curve : int
+        Its curve.
+    breaks : tuple of int
+        The points at which its straight pieces and its arc begin and end, in order.
+    arc : int
+        Which piece is the arc; -1 of a straight run.
+    drawn : DrawnRun
+        Its shape.
+    """
+
+    curve: int
+    breaks: tuple[int, ...]
+    arc: int
+    drawn: DrawnRun
+
+
+@attrs.define(eq=False)
+class DrawnRuns(Modification):
+    """The runs of an edit."""
+
+    runs: list[AskedRun] = attrs.field(factory=list)
+
+    @property
+    def idle(self) -> bool:
+        """Whether there is none."""
+        return not self.runs
+
+    def check(self, work: Work) -> Iterable[str]:
+        """Say which point lies off its run."""
+        for run in self.runs:
+            yield from _off_run(work.state, run)
+
+    def finish(self, work: Work) -> bool:
+        """Make the features; the points have come to stay."""
+        state = work.state
+        for run in self.runs:
+            for number, (first, last) in enumerate(zip(run.breaks, run.breaks[1:], strict=False)):
+                rows = points_between(state, run.curve, first, last)
+                made = _feature(state, run, number, rows)
+                if made is not None:
+                    Maker(state, work.journal).features([*state.features, made])
+        return False
+
+
+def points_between(state: HullState, curve: int, first: int, last: int) -> IntArray:
+    """Give the points of a curve from one to another, both included; none if one has gone."""
+    rows: IntArray = state.curves.rows[curve]
+    found = [np.flatnonzero(rows == row) for row in (first, last)]
+    if not all(len(at) for at in found):
+        return rows[:0]
+    return rows[found[0][0] : found[1][0] + 1]
+
+
+def _off_run(state: HullState, run: AskedRun) -> Iterator[str]:
+    rows = points_between(state, run.curve, run.breaks[0], run.breaks[-1])
+    title = state.lines.name[state.line_of(run.curve)]
+    if not len(rows):
+        yield f"{title}: an end of the run has gone; draw it between other points"
+        return
+    off = run.drawn.off(state.rows.xyz[rows])
+    worst = int(off.argmax())
+    if off[worst] > _ON * state.tolerances.factor:
+        name = address(state, int(rows[worst]))
+        yield (
+            f"{name} came to lie {1e3 * off[worst]:.3g} mm off the run of {title}: another "
+            "change of the edit holds it, or what crosses there does not follow so far; draw the "
+            "run in an edit of its own, shorter, or nearer to the line"
+        )
+
+
+def _feature(state: HullState, run: AskedRun, number: int, rows: IntArray) -> Feature | None:
+    """Give the feature of one piece; None of a straight one that is too short for one."""
+    xyz, drawn = state.rows.xyz[rows], run.drawn
+    if number != run.arc:
+        chord = xyz[-1] - xyz[0]
+        short = float(np.sqrt((chord * chord).sum())) < _SHORTEST * state.particulars.length
+        return None if short else drawn_feature(state, run.curve, "straight", rows)
+    normal = state.lines.normal[state.line_of(run.curve)]
+    return drawn_feature(
+        state, run.curve, "arc", rows, centre=drawn.centre.tolist(), radius=drawn.radius,
+        normal=normal.tolist(), side=circle_side(xyz, drawn.centre, normal),
+    )  # fmt: skip
+
+
+def features_on(state: HullState, curve: int, rows: Sequence[int]) -> list[Feature]:
+    """Give the features of a curve's line that own one of some points."""
+    key = state.lines.key[state.line_of(curve)]
+    return [each for each in state.features if key in each.lines and set(rows) & set(each.points)]
+
+
+_KEPT = 0.02
+"""Part of its area by which a hollow may be off when lines that drive it have followed."""
+
+_GAUSS = np.array([0.5 - np.sqrt(0.15), 0.5, 0.5 + np.sqrt(0.15)]), np.array([5.0, 8.0, 5.0]) / 18.0
+"""Places and weights that integrate polynomials of degree 5 from 0 to 1."""
+
+
+@attrs.frozen(eq=False)
+class SpreadArea:
+    """A hollow that is spread.
+
+    Attributes
+    ----------
+    curve : int
+        Its curve.
+    old : SplineBatch
+        The curve before.
+    way, up : (3,)
+        Unit vectors along the hollow and across it.
+    area : float, m2
+        Of the hollow.
+    """
+
+    curve: int
+    old: SplineBatch
+    way: FloatArray
+    up: FloatArray
+    area: float
+
+
+@attrs.define(eq=False)
+class SpreadAreas(Modification):
+    """The hollows that an edit spreads."""
+
+    areas: list[SpreadArea] = attrs.field(factory=list)
+
+    @property
+    def idle(self) -> bool:
+        """Whether there is none."""
+        return not self.areas
+
+    def check(self, work: Work) -> Iterable[str]:
+        """Say whose area was not kept."""
+        for each in self.areas:
+            off = area_beside(each.old, work.state.spline(each.curve), each.way, each.up)
+            if abs(off) > _KEPT * each.area:
+                name = work.state.lines.name[work.state.line_of(each.curve)]
+                yield (
+                    f"{name}: the hollow has come to another area, by {100 * off / each.area:.1f} %"
+                    ", as lines drive it that follow not so far; make their crossings shared "
+                    "(edit.set_role), or give another length"
+                )
+
+
+def area_beside(old: SplineBatch, new: SplineBatch, way: FloatArray, up: FloatArray) -> float:
+    """Give the area (m2) between two curves with the same ends, above the old one positive."""
+    return _area_below(new, way, up) - _area_below(old, way, up)
+
+
+def _area_below(spline: SplineBatch, way: FloatArray, up: FloatArray) -> float:
+    """Integrate the height over the length of a curve, exactly: a polynomial piece by piece."""
+    step = np.diff(spline.knot)
+    at = (spline.knot[:-1, None] + step[:, None] * _GAUSS[0]).ravel()
+    curve: IntArray = np.zeros(len(at), np.int64)
+    height = ((evaluate(spline, curve, at) - spline.xyz[0]) * up).sum(axis=1)
+    speed = (derivative(spline, curve, at) * way).sum(axis=1)
+    weight = (step[:, None] * _GAUSS[1]).ravel()
+    return float((height * speed * weight).sum())
+
 
 _MORE = 4
 """Sub-steps a field may have in addition."""

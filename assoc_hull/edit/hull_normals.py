@@ -13,10 +13,10 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.interpolation import interpolate_linear
-from assoc_hull.graph.network import distinct
+from assoc_hull.graph.run_update import distinct
 from assoc_hull.model.gaps import crossing_normals, numbered, tangents
 from assoc_hull.model.kinds import Sort
-from assoc_hull.model.lofting import loft_curves
+from assoc_hull.model.network import loft_curves
 from assoc_hull.model.tables import HullState
 
 __all__ = [

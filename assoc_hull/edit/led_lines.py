@@ -15,8 +15,7 @@ import numpy as np
 from assoc_hull.edit.displacement_field import on_flat, on_profile
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.hull_normals import hull_normals
-from assoc_hull.edit.report import SAME_MOVEMENT, Led
-from assoc_hull.edit.step import Step
+from assoc_hull.edit.step import SAME_MOVEMENT, Led, Step
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Sort

@@ -17,7 +17,7 @@ import numpy as np
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState
 

@@ -22,8 +22,8 @@ from assoc_hull.edit.crossings.settle_crossings import (
     settle_crossings,
 )
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.recording import Settings
+from assoc_hull.edit.space_map import CarriedFeatures
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal

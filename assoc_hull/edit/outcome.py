@@ -14,12 +14,10 @@ import numpy as np
 from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.followup.take_up_definitions import form_changes
 from assoc_hull.edit.modification import Work
-from assoc_hull.edit.report import EditReport, Fairness, Led, Movement
-from assoc_hull.edit.step import Step, StepBody
+from assoc_hull.edit.step import EditReport, Fairness, Led, Movement, Step, StepBody
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.graph.journal import Journal, distinct
-from assoc_hull.graph.network import Readers
-from assoc_hull.graph.run_update import UpdatePass
+from assoc_hull.graph.run_update import Readers, UpdatePass
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import along_normal, sides_held
 from assoc_hull.model.kinds import Role, Sort

@@ -16,12 +16,21 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.checks.update_findings import plane_normals
-from assoc_hull.edit.report import EditReport, Fairness, Inflections
-from assoc_hull.edit.step import Notes, Past, Rerun, Step, StepBody, Writes
+from assoc_hull.edit.step import (
+    EditReport,
+    Fairness,
+    Inflections,
+    Notes,
+    Past,
+    Rerun,
+    Step,
+    StepBody,
+    Writes,
+)
 from assoc_hull.geometry.curves import SplineBatch
-from assoc_hull.graph.gate import Gate
+from assoc_hull.graph.derived import Gate
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.network import Readers
+from assoc_hull.graph.run_update import Readers
 from assoc_hull.model.change import TableChange, apply_change
 from assoc_hull.model.packed_change import (
     PackedArrays,

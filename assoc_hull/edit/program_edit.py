@@ -33,13 +33,11 @@ from assoc_hull.edit.outcome import (
 from assoc_hull.edit.past_states import late_report
 from assoc_hull.edit.published_program import LiveNumbers, numbers_for_edit
 from assoc_hull.edit.recording import Settings
-from assoc_hull.edit.report import EditReport, Fairness
-from assoc_hull.edit.step import Notes, Past, Step, StepBody, Writes
+from assoc_hull.edit.step import EditReport, Fairness, Notes, Past, Step, StepBody, Writes
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal, PickedRows, each_once
-from assoc_hull.graph.network import Evaluation, distinct
-from assoc_hull.graph.run_update import UpdatePass, run_update
+from assoc_hull.graph.run_update import Evaluation, UpdatePass, distinct, run_update
 from assoc_hull.model.change import TableChange, net_bits
 from assoc_hull.model.index import build_index, index_columns
 from assoc_hull.model.network import HullNetwork, moved_curves, placed

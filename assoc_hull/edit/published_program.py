@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.curve_order import curve_folds
-from assoc_hull.graph.derived import Objects
-from assoc_hull.graph.gate import Gate
+from assoc_hull.graph.derived import Gate, Objects
 from assoc_hull.model.index import Index
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.program.engine import runner_of

@@ -1,6 +1,8 @@
-"""Writing down what an edit was asked for, as data that can be asked for again.
+"""What an edit was asked for: as data that can be asked for again, and in words.
 
 Handles are written as addresses, as they were when the call was made.
+
+What an edit was asked for, in the words in which causes name it.
 
 Examples
 --------
@@ -9,15 +11,30 @@ Examples
 >>> from assoc_hull.model.objects import handle
 >>> said(handle(wigley(), "ST 7 x WL 2.5"))
 'ST 7 x WL 2.5'
+>>> from assoc_hull.edit.recording import asked_words
+>>> asked_words({"op": "pull", "point": "WL 1 x ST 4", "d": 0.02})
+'the pull at WL 1 x ST 4'
 """
 
 from __future__ import annotations
 
 import contextlib
 import inspect
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import (
+    Callable,
+    Iterable,
+    Iterator,
+    Mapping,
+    Sequence,
+)
 from functools import wraps
-from typing import Concatenate, ParamSpec, Protocol, Self, TypeVar
+from typing import (
+    Concatenate,
+    ParamSpec,
+    Protocol,
+    Self,
+    TypeVar,
+)
 
 import attrs
 import numpy as np
@@ -27,7 +44,13 @@ from assoc_hull.errors import AssocHullError
 from assoc_hull.graph.run_update import FailurePolicy
 from assoc_hull.model.address import AddressBook, address
 from assoc_hull.model.form_definition import FormDefinition
-from assoc_hull.model.objects import Crossing, Curve, Group, Line, Point
+from assoc_hull.model.objects import (
+    Crossing,
+    Curve,
+    Group,
+    Line,
+    Point,
+)
 
 __all__ = [
     "ANY_FUNCTION",
@@ -37,6 +60,9 @@ __all__ = [
     "Script",
     "Settings",
     "VariedValues",
+    "asked_words",
+    "field_words",
+    "joined_words",
     "recorded",
     "said",
 ]
@@ -256,3 +282,67 @@ def _named(thing: Group | Line | Curve) -> str:
         if thing.number in numbers:
             return name
     return thing.id
+
+
+_WORDS = {
+    "move": "the move of {point}",
+    "insert": "the point put into {curve}",
+    "delete": "the deletion of {point}",
+    "pull": "the pull at {point}",
+    "reshape": "the re-shaping of {curve}",
+    "lead": "the lead of {line}",
+    "fair": "the fairing of {lines}",
+    "straighten": "the straightening of {line}",
+    "round": "the rounding of {line}",
+    "transform": "the transformation",
+    "tunnel": "the tunnel {name}",
+    "set_tunnel": "the new axis or radius of {name}",
+    "remove_tunnel": "the removal of {name}",
+    "body": "the body {name}",
+    "set_body": "the new place or shape of {name}",
+    "remove_body": "the removal of {name}",
+    "set_form": "the new values of {definition}",
+}
+"""By modification, with names of its arguments."""
+
+_FIELDS = frozenset({"pull", "reshape", "lead", "fair", "transform"})
+"""Of these an edit sets points that nobody named."""
+
+_MOST = 3
+"""So many are named where several are."""
+
+
+def asked_words(change: Mapping[str, Said]) -> str:
+    """Say a modification in words; of one without words of its own, its name and first argument."""
+    op = str(change.get("op", ""))
+    if op in _WORDS:
+        named = {name: _argument_words(value) for name, value in change.items()}
+        if change.get("lines") is None:
+            named["lines"] = "the hull"
+        return _WORDS[op].format_map(named)
+    first = next((value for name, value in change.items() if name != "op"), None)
+    title = op.replace("_", " ")
+    return f"{title} of {_argument_words(first)}" if isinstance(first, str | list) else title
+
+
+def field_words(script: Iterable[Mapping[str, Said]], *, leads: bool) -> tuple[str, ...]:
+    """Say those modifications of a script that set points which nobody named, each once.
+
+    `leads`: whether lines led; else what may lead, and says so, was pinned.
+    """
+    chosen = (each for each in script if each.get("op") in _FIELDS or (leads and each.get("lead")))
+    return tuple(dict.fromkeys(map(asked_words, chosen)))
+
+
+def joined_words(words: Sequence[str]) -> str:
+    """Name several things, the first of them where they are many."""
+    if len(words) > _MOST:
+        return f"{', '.join(words[:_MOST])} and {len(words) - _MOST} more"
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
+def _argument_words(value: Said) -> str:
+    """Name an argument; of a list its first items."""
+    if isinstance(value, list):
+        return joined_words([_argument_words(each) for each in value])
+    return str(value)

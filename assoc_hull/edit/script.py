@@ -17,9 +17,8 @@ import attrs
 from assoc_hull.arguments import shown, shown_name
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.recording import WRITTEN_OUT, Script, Settings
-from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit
-from assoc_hull.edit.step import Step
+from assoc_hull.edit.step import EditReport, Step
 from assoc_hull.errors import AssocHullError, UnknownNameError, WrongTypeError
 
 __all__ = [

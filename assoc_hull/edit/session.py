@@ -23,26 +23,25 @@ from assoc_hull.edit.lines import remove_line as _lines
 from assoc_hull.edit.lines import shift_line as _shift
 from assoc_hull.edit.modifications import associations as _associate
 from assoc_hull.edit.modifications import attachments as _attachments
-from assoc_hull.edit.modifications import bodies as _bodies
-from assoc_hull.edit.modifications import curve_ends as _ends
+from assoc_hull.edit.modifications import attachments as _bodies
+from assoc_hull.edit.modifications import attachments as _tunnels
 from assoc_hull.edit.modifications import definitions as _reattach
 from assoc_hull.edit.modifications import definitions as _set_form
 from assoc_hull.edit.modifications import draw_runs as _draw
-from assoc_hull.edit.modifications import groups as _groups
 from assoc_hull.edit.modifications import lead as _lead
+from assoc_hull.edit.modifications import names as _groups
 from assoc_hull.edit.modifications import names as _rename
+from assoc_hull.edit.modifications import points as _ends
 from assoc_hull.edit.modifications import points as _points
 from assoc_hull.edit.modifications import pull as _pull
 from assoc_hull.edit.modifications import reshape as _reshape
 from assoc_hull.edit.modifications import roles as _renew
 from assoc_hull.edit.modifications import roles as _set_role
 from assoc_hull.edit.modifications import spread as _spread
-from assoc_hull.edit.modifications import tunnels as _tunnels
 from assoc_hull.edit.recording import Said, Script, Settings, VariedValues, recorded
 from assoc_hull.edit.recut import transform as _transform
-from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.space_map import Jacobian, PointMapping, space_map
-from assoc_hull.edit.step import Step
+from assoc_hull.edit.step import EditReport, Step
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.edit.write_lock import LOOK_AGAIN, PATIENCE
 from assoc_hull.errors import (
@@ -1170,7 +1169,7 @@ class Edit:
         -----
         It is an edit of its own: nothing else may stand in the same ``with`` block. The
         particulars stay as they are, and so do the names of lines: a pure shift says in
-        ``edit.report`` how many lines that go by a number it moved.
+        ``edit.step`` how many lines that go by a number it moved.
 
         Examples
         --------

@@ -11,12 +11,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from assoc_hull.edit.carried_net import CarriedNet
-from assoc_hull.edit.checks.shape_findings import find_turned
+from assoc_hull.edit.carried_net import CarriedNet, Nudged
 from assoc_hull.edit.checks.update_findings import (
     find_beyond,
     find_endless,
     find_folds,
+    find_turned,
     find_unbounded,
     find_unmet,
     measure_gaps,
@@ -25,17 +25,14 @@ from assoc_hull.edit.checks.update_findings import (
 from assoc_hull.edit.crossings.adopted_points import mend_gaps
 from assoc_hull.edit.displacement_field import PullField
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.drawn_runs import DrawnRuns
-from assoc_hull.edit.field_moves import FieldMoves
+from assoc_hull.edit.field_moves import DrawnRuns, FieldMoves, SpreadAreas
 from assoc_hull.edit.followup.redraw_features import redraw_features
 from assoc_hull.edit.followup.settle_features import affected_features, settle_features
 from assoc_hull.edit.followup.take_up_definitions import DefinitionValues
 from assoc_hull.edit.modification import Modification, Pending, Work
-from assoc_hull.edit.nudge import Nudged
 from assoc_hull.edit.outcome import step_of
 from assoc_hull.edit.program_edit import ProgramEdit
 from assoc_hull.edit.recording import Settings
-from assoc_hull.edit.spread_areas import SpreadAreas
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
 from assoc_hull.geometry.curves import FloatArray, IntArray

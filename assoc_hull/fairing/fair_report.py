@@ -17,7 +17,7 @@ from assoc_hull.display import ShownAsText
 from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.modifications.fair import BoundPoint, Faired
 from assoc_hull.edit.net_battens import net_battens
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import LOBE, inflections

@@ -17,12 +17,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.display import ShownAsText
-from assoc_hull.fairing.table_residuals import CellWindows, TableMisfits, TableWindows
-from assoc_hull.fairing.table_rules import (
+from assoc_hull.fairing.table_residuals import (
     EQUAL,
     LONE,
     SHARED,
+    CellWindows,
+    TableMisfits,
     TableRemark,
+    TableWindows,
     equal_neighbours,
     lone_values,
     multiplied_lines,

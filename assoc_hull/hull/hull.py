@@ -35,9 +35,9 @@ from assoc_hull.arguments import (
 )
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.recording import Settings
-from assoc_hull.edit.report import EditReport, EditReports
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out
 from assoc_hull.edit.session import Edit, join_edit, open_edit
+from assoc_hull.edit.step import EditReport, EditReports
 from assoc_hull.edit.write_lock import PATIENCE
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError, WrongTypeError
 from assoc_hull.model.address import AddressBook
@@ -107,7 +107,7 @@ if TYPE_CHECKING:
     from assoc_hull.hull.variants import Jumboised, Shifted, Variation
     from assoc_hull.io.hull_file.saving import Saved
     from assoc_hull.model.attached_body import AttachedBody
-    from assoc_hull.model.definition.verify import Difference
+    from assoc_hull.model.definition.restore import Difference
     from assoc_hull.model.form_definition import FormDefinition
     from assoc_hull.model.objects import FeatureHandle
     from assoc_hull.model.tables import HasState
@@ -673,7 +673,7 @@ class Hull:
     def verify(self, relative: float = 0.0) -> tuple[Difference, ...]:
         """Rebuild the hull beside the published one, look through its file: all that differs."""
         from assoc_hull.io.hull_file.saving import file_damages
-        from assoc_hull.model.definition.verify import verify
+        from assoc_hull.model.definition.restore import verify
 
         found = verify(self.state, not_negative(relative, "relative", "in verify"))
         return (*found, *file_damages(self.document))
@@ -1051,7 +1051,7 @@ class Hull:
         Notes
         -----
         Draughts, water, KG and appendages stay as they are, and so do Lpp and B but where a
-        parameter has rates for them (`assoc_hull.analysis.derivatives.given_motion.Moves`). The
+        parameter has rates for them (`assoc_hull.analysis.derivatives.parameters.Moves`). The
         layout of the surface is that of the hull as it stands; where a value has a kink (the
         largest station changes, a section begins to be wet) the derivative is that to one side.
 
@@ -1456,7 +1456,7 @@ class Hull:
         >>> found[0, :, 1:].round(3).tolist()
         [[0.0, 0.0], [13.99, 0.0], [25.0, 4.01], [25.0, 18.0]]
         """
-        from assoc_hull.analysis.panels.section_points import section_points
+        from assoc_hull.analysis.panels.hull_panels import section_points
 
         return section_points(self, x, points=points, draught=draught, draughts=draughts)
 
@@ -1926,7 +1926,7 @@ class Hull:
         >>> report.found.unknowns, hull.history[-1].name
         (171, 'fair')
         """
-        from assoc_hull.fairing.fair_hull import fair_hull
+        from assoc_hull.fairing.fair_window import fair_hull
 
         flag(dry_run, "dry_run", "in fair")
         return fair_hull(
@@ -2438,7 +2438,7 @@ features
         """
         from assoc_hull.hull.variants import Shifted
         from assoc_hull.variation.shifts.shift_hull import shift_document
-        from assoc_hull.variation.shifts.shift_request import ShiftRequest
+        from assoc_hull.variation.shifts.shift_terms import ShiftRequest
 
         ask = ShiftRequest.of(
             to, by, shape=shape, terminals=terminals, fade=fade, tolerance=tolerance, name=name
@@ -2494,7 +2494,7 @@ features
         (5.0, 0.444)
         """
         from assoc_hull.hull.variants import Shifted
-        from assoc_hull.variation.shifts.swing_hull import swing_document
+        from assoc_hull.variation.shifts.shift_hull import swing_document
 
         asked = {"length": length, "breadth": breadth, "draught": draught}
         varied = _to_change(self, "swing", in_place=in_place)

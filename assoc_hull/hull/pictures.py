@@ -128,7 +128,7 @@ class HullPictures:
         ...     edit.pull("WL 2.5 x ST 7", 0.01)
         ...     figure = hull.plot.dirty(paper="A4")
         """
-        from assoc_hull.plot.lines_plan.dirty_lines import dirty_plan
+        from assoc_hull.plot.lines_plan.plan import dirty_plan
 
         return dirty_plan(self.hull, path, paper=paper, title=title, x=x)
 

@@ -28,7 +28,7 @@ from typing import IO, Any
 import attrs
 
 from assoc_hull.errors import AssocHullError, BadInputError
-from assoc_hull.graph.gate import Gate
+from assoc_hull.graph.derived import Gate
 
 __all__ = ["ChildSession", "Limits", "limits_for", "run_in_child", "serve"]
 

@@ -19,9 +19,8 @@ from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.io.tables.json_schema import DIALECT, FINGERPRINT, dumps_schema
 from assoc_hull.io.write_file import write_whole
 from assoc_hull.model.definition.fingerprint import fingerprint
-from assoc_hull.model.definition.records import definition, published
+from assoc_hull.model.definition.records import DEFINITION, PUBLISHED, definition, published
 from assoc_hull.model.definition.restore import from_definition
-from assoc_hull.model.definition.schema import DEFINITION, PUBLISHED
 from assoc_hull.model.tables import HullState
 
 __all__ = [

@@ -39,7 +39,7 @@ from assoc_hull.graph.journal import Journal, both_parts, distinct, same_value
 from assoc_hull.graph.table import AnyColumn, Column, ValueColumn
 from assoc_hull.model.births import Births
 from assoc_hull.model.kinds import State
-from assoc_hull.model.lofting import curve_data, loft_curves
+from assoc_hull.model.network import curve_data, loft_curves
 from assoc_hull.model.tables import TABLES, CurveIntersections, HullState
 
 __all__ = [

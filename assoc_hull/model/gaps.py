@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.geometry.splines.segments import derivative
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import HullState
 

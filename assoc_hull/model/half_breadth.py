@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import NoMeetingError
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.geometry.splines.segments import derivative
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState
 

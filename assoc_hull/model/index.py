@@ -12,7 +12,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.graph.levels import levels
+from assoc_hull.graph.run_update import levels
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.forms.generate_points import definitions_read
 from assoc_hull.model.generated_curves import attached_curves

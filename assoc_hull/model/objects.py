@@ -26,8 +26,8 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBa
 from assoc_hull.geometry.plane import Plane, as_plane
 from assoc_hull.geometry.splines.arc_length import arc_length
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import curvature, evaluate, sample
 from assoc_hull.geometry.splines.plane_intersections import on_plane, points_on_plane
+from assoc_hull.geometry.splines.segments import curvature, evaluate, sample
 from assoc_hull.model.address import AddressBook, ResolvedAddress, resolve_address
 from assoc_hull.model.dirty_cause import DirtyCause, cause_of
 from assoc_hull.model.feature_geometry import line_numbers

@@ -19,8 +19,7 @@ import numpy as np
 from assoc_hull.arguments import checked, choice, flag, integer, places, positive, shown, word
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.derived import Derived, Key
-from assoc_hull.graph.gate import Gate
+from assoc_hull.graph.derived import Derived, Gate, Key
 from assoc_hull.graph.table import (
     Column,
     MatrixColumn,

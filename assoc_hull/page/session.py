@@ -22,8 +22,8 @@ import numpy as np
 from assoc_hull.edit.document import SIGNED, STOPPED
 from assoc_hull.edit.drag import Drag, DragWay, Live
 from assoc_hull.edit.hull_normals import hull_normals
-from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.shapes import joined
+from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError, StaleHullError
 from assoc_hull.hull.hull import Hull
 from assoc_hull.io.hull_file.saving import is_behind_file

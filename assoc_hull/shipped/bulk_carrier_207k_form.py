@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.numeric.roots import brent_root
+from assoc_hull.geometry.numeric.polynomials import brent_root
 
 __all__ = [
     "aft_end",

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING
 import attrs
 
 from assoc_hull.arguments import shown
-from assoc_hull.edit.garbage_collection import PausedCollector
+from assoc_hull.edit.write_lock import PausedCollector
 from assoc_hull.errors import (
     BadInputError,
     ClusterError,
@@ -32,11 +32,11 @@ from assoc_hull.errors import (
     WrongTypeError,
 )
 from assoc_hull.geometry.numeric.blas_threads import one_thread
-from assoc_hull.graph.gate import Gate
-from assoc_hull.study.row_queue import RowQueue
+from assoc_hull.graph.derived import Gate
 from assoc_hull.study.run import StudyRow, StudyRun
 from assoc_hull.study.side_processes import (
     RowBatch,
+    RowQueue,
     make_batch,
     pack_run,
     process_ended,

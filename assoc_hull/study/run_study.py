@@ -18,9 +18,8 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.numeric.blas_threads import one_thread
 from assoc_hull.study.dask_cluster import open_cluster, rows_on_cluster
-from assoc_hull.study.row_queue import MOST_ROWS, RowQueue
 from assoc_hull.study.run import StudyRow, StudyRun
-from assoc_hull.study.side_processes import rows_here, rows_in_processes
+from assoc_hull.study.side_processes import MOST_ROWS, RowQueue, rows_here, rows_in_processes
 
 __all__ = ["RowTable", "Tell", "run_study"]
 

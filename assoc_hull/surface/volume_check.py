@@ -21,7 +21,7 @@ from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.volume_below import integrate_below
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.geometry.surfaces.triangles import grid_triangles
 from assoc_hull.model.tables import HullState
 from assoc_hull.surface.cells.closed_mesh import BelowDraught, ClosedMesh, triangles_below

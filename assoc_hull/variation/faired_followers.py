@@ -16,9 +16,13 @@ import attrs
 import numpy as np
 from scipy.sparse import csr_array, vstack
 
-from assoc_hull.analysis.fairness.batten_problem import BattenProblem
-from assoc_hull.analysis.fairness.bent_curves import BentCurves, CurvatureRates, end_curvatures
-from assoc_hull.analysis.fairness.kept_signs import KeptSigns
+from assoc_hull.analysis.fairness.batten_problem import (
+    BattenProblem,
+    BentCurves,
+    CurvatureRates,
+    end_curvatures,
+)
+from assoc_hull.analysis.fairness.fair_solution import KeptSigns
 from assoc_hull.edit.displacement_field import SolvedField
 from assoc_hull.edit.field_moves import FieldMoves
 from assoc_hull.edit.net_battens import MendingPoint, mending_points, mending_ties, net_battens

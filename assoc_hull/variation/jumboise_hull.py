@@ -23,18 +23,17 @@ from assoc_hull.arguments import choice, number, text
 from assoc_hull.display import ShownAsText
 from assoc_hull.edit.crossings.adopted_points import insert_defining_point
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.lines.add_line import add_line
-from assoc_hull.edit.lines.copy_section import copy_section
+from assoc_hull.edit.lines.add_line import add_line, copy_section
 from assoc_hull.edit.lines.remove_line import remove_line
 from assoc_hull.edit.modifications.names import rename_lines
 from assoc_hull.edit.recut.transform import transform
-from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.space_map import SpaceMap
+from assoc_hull.edit.step import EditReport
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
-from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.geometry.splines.segments import derivative
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.tables import CurveIntersections, HullState

@@ -20,7 +20,7 @@ from typing import Any, Literal, get_args
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.form.catalogue import CATALOGUE as FORM_PARAMETERS
+from assoc_hull.analysis.form.form_parameters import CATALOGUE as FORM_PARAMETERS
 from assoc_hull.analysis.hydrostatics.record import FIELDS
 from assoc_hull.arguments import (
     choice,

@@ -19,7 +19,7 @@ from assoc_hull.display import ShownAsText
 from assoc_hull.edit.checks.update_findings import MOVE_ADVICE
 from assoc_hull.edit.document import Document, end_if_stopped
 from assoc_hull.edit.mapped_planes import IN_PLANE
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray

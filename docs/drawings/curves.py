@@ -6,8 +6,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from assoc_hull.geometry.curves import CurveData
-from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.io.offsets.complete_table import centre_profile, end_contours, flat_of_bottom
 from assoc_hull.shipped.series60 import todd_table
 from drawings.common import DRIVEN, FAINT, FIXED, INK, PALE, SHARED, arrow, bare, curve, ship

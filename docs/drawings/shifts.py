@@ -9,7 +9,7 @@ from assoc_hull.analysis.hydrostatics.section_areas import area_curve
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.variation.shifts.closed_form import closed_form
 from assoc_hull.variation.shifts.shift_hull import ShiftWork
-from assoc_hull.variation.shifts.shift_request import ShiftRequest
+from assoc_hull.variation.shifts.shift_terms import ShiftRequest
 from drawings.common import DRIVEN, FAINT, INK, PALE, SHARED, ship
 
 __all__ = ["section_shifts"]

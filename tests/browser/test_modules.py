@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import assoc_hull as ah
-from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.page.app import static_files
 from assoc_hull.page.wire import Frame, FrameKind, pack
 

@@ -13,7 +13,7 @@ import attrs
 import numpy as np
 
 import assoc_hull as ah
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.geometry.curves import FloatArray
 from tests.cases.true_branches import Branch
 

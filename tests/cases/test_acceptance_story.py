@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes

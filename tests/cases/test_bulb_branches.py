@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.tolerance import Tolerances
 from tests.cases.bulb import breadth_at, bulb_hull, contour

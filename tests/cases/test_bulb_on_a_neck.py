@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.floating_shape import FloatingShape
-from assoc_hull.analysis.form.form_parameters import shape_of
+from assoc_hull.analysis.form.form_parameters import CATALOGUE, shape_of
 from assoc_hull.analysis.form.parameter import FormValue, evaluate
 from tests.cases.bulb import breadth_at, bulb_hull, contour, fullness, gradient
 

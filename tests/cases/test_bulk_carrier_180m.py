@@ -10,7 +10,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.forms.form_values import chain_of
 from assoc_hull.shipped.bulk_carrier_180m import bulk_carrier_180m_design
 from tests.cases.versluis import AREAS, BREADTH, DRAUGHT, LPP, MOMENTS, X

@@ -9,7 +9,7 @@ import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.flotation import even_keel_displacement
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
-from assoc_hull.geometry.splines.evaluation import evaluate, sample
+from assoc_hull.geometry.splines.segments import evaluate, sample
 from assoc_hull.model.kinds import Role, Sort
 from tests.independent import lost_meetings, trouble
 

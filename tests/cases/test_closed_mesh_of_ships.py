@@ -6,7 +6,7 @@ import trimesh
 
 import assoc_hull as ah
 from assoc_hull.analysis.net.curve_net import gather_net
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh
 
 SHIPS = {

@@ -11,7 +11,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fairness.inflections import inflections
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.forms.form_values import chain_of
 from assoc_hull.shipped.container_ship_225m import container_ship_225m_design
 from tests.taken_back import taken_back

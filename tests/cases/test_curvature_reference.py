@@ -10,7 +10,7 @@ import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.numeric.tensor_bernstein import bernstein_basis
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.regions.region_parts import RegionAreas
+from assoc_hull.surface.regions.level_lines import RegionAreas
 from assoc_hull.surface.regions.result import RegionResult
 from tests.curved_patches import graph_plates, patch, random_nets, references
 

@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.floating_shape import FloatingShape
-from assoc_hull.analysis.form.form_parameters import shape_of
+from assoc_hull.analysis.form.form_parameters import CATALOGUE, shape_of
 from assoc_hull.analysis.form.parameter import FormValue, evaluate
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.mesh.read import read_triangles

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.floating_shape import Screw
+from assoc_hull.analysis.form.form_parameters import CATALOGUE
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.hydrostatics.section_areas import section_areas
 from assoc_hull.geometry.curves import FloatArray

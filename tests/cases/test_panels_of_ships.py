@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.panels.hull_panels import panels
+from assoc_hull.analysis.panels.hull_panels import panels, section_points
 from assoc_hull.analysis.panels.mesh_quality import panel_report
-from assoc_hull.analysis.panels.section_points import section_points
 from assoc_hull.errors import AssocHullError, OutOfRangeError
 from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import examples

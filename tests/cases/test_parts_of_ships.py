@@ -14,8 +14,7 @@ from scipy.optimize import brentq
 import assoc_hull as ah
 from assoc_hull.analysis.form.form_parameters import form_parameters, shape_of
 from assoc_hull.analysis.form.longitudinal_parts import ShipSlices, largest_section, ship_slices
-from assoc_hull.geometry.floating.sections import areas_at
-from assoc_hull.geometry.floating.slices import integrate_slice
+from assoc_hull.geometry.floating.sections import areas_at, integrate_slice
 from assoc_hull.geometry.numeric.quadrature import gauss
 from tests import twin_skeg
 from tests.cases.test_twin_skeg import half_area

@@ -9,7 +9,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.record import Hydrostatics
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import Particulars
 from tests.long_forms import LONG

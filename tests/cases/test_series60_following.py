@@ -10,7 +10,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.hull_normals import hull_normals
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.address import address
 from assoc_hull.model.objects import Curve

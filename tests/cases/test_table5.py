@@ -15,8 +15,8 @@ from pathlib import Path
 
 import pytest
 
-from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.entries.sections import radius_from_area
+from assoc_hull.analysis.form.form_parameters import CATALOGUE
 from assoc_hull.analysis.form.parameter import (
     FormParameter,
     FormValue,

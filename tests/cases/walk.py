@@ -8,7 +8,7 @@ import attrs
 import numpy as np
 
 import assoc_hull as ah
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from tests.cases import places
 from tests.independent import Snapshot, snapshot
 

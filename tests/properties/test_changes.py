@@ -8,8 +8,7 @@ import assoc_hull as ah
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import Column
 from assoc_hull.model.change import apply_change, change_of
-from assoc_hull.model.definition.fingerprint import fingerprint
-from assoc_hull.model.definition.hash_tree import HashTree, root_of
+from assoc_hull.model.definition.fingerprint import HashTree, fingerprint, root_of
 from assoc_hull.model.tables import TABLES, HullState, copy_state
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 

@@ -6,7 +6,7 @@ import attrs
 from hypothesis import given, settings
 
 import assoc_hull as ah
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import AssocHullError
 from tests.long_forms import LONG
 from tests.net_strategies import SHAPES, STRUCTURE, Act, Task, fresh, hulls, perform, tasks

@@ -10,9 +10,8 @@ from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.floating_shape import Screw
-from assoc_hull.analysis.form.form_parameters import form_parameters
+from assoc_hull.analysis.form.form_parameters import CATALOGUE, form_parameters
 from assoc_hull.analysis.form.parameter import FormValue
 from assoc_hull.errors import OutOfRangeError
 from assoc_hull.hull.sources import examples

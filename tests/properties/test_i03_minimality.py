@@ -12,7 +12,7 @@ from hypothesis import given, settings
 import assoc_hull as ah
 from assoc_hull.edit import modification as work
 from assoc_hull.edit.program_edit import ProgramEdit
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.graph import run_update as engine
 from assoc_hull.graph.run_update import UpdatePass
 from assoc_hull.model.node import Node

@@ -25,7 +25,7 @@ from assoc_hull.edit.session import Edit
 from assoc_hull.errors import AssocHullError, TooFewPointsError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.network import Evaluation
+from assoc_hull.graph.run_update import Evaluation
 from assoc_hull.graph.table import Column
 from assoc_hull.model import network
 from assoc_hull.model.kinds import State

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 
 import assoc_hull as ah
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import HullState
 from tests.independent import Root, lost_meetings, roots, trouble

@@ -98,7 +98,7 @@ ACTS: dict[str, tuple[Callable[[ah.Hull], None], int]] = {
 """Each with what is done before: 1 an edit, 2 an edit that is taken back."""
 
 ONLY = {
-    "what a file does for a move": ("/io/hull_file/storage.py", "/graph/gate.py"),
+    "what a file does for a move": ("/io/hull_file/storage.py", "/graph/derived.py"),
     **dict.fromkeys(TAKEN_BACK, BACK),
 }
 """Where interrupts of an act come; anywhere in the package if it is not here."""
@@ -280,7 +280,7 @@ def test_an_interrupt_of_a_pause_leaves_the_collector_off_until_the_next_at_most
     gc.enable()
     try:
         with contextlib.suppress(KeyboardInterrupt):
-            traced(_move, hull, Tracer(line, ("/edit/garbage_collection.py",)))
+            traced(_move, hull, Tracer(line, ("/edit/write_lock.py",)))
         with hull.edit("next") as edit:
             edit.move("WL 3.75 x ST 5", y=3.17)
         assert gc.isenabled()

@@ -30,7 +30,7 @@ from assoc_hull.edit import document as documents
 from assoc_hull.edit import past_states, program_edit
 from assoc_hull.edit.past_states import PackedWrites
 from assoc_hull.edit.step import Step, StepBody
-from assoc_hull.graph import gate
+from assoc_hull.graph import derived
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model import change as changes
 from assoc_hull.model.packed_change import with_strays
@@ -321,7 +321,7 @@ def test_an_interrupt_while_an_old_step_is_told_leaves_it_to_others_to_ask() -> 
     left = [0]
 
     def trace(frame: FrameType, event: str, argument: object) -> Callable[..., Any] | None:
-        if frame.f_code.co_filename not in (past_states.__file__, gate.__file__):
+        if frame.f_code.co_filename not in (past_states.__file__, derived.__file__):
             return None
         frame.f_trace_opcodes = True
         if event == "opcode":

@@ -22,13 +22,12 @@ from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.graph.network import Readers
+from assoc_hull.graph.run_update import Readers
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
 from assoc_hull.model.definition.canonical_columns import canonical_order, point_columns
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.definition.records import definition
-from assoc_hull.model.definition.restore import from_definition
-from assoc_hull.model.definition.verify import verify
+from assoc_hull.model.definition.restore import from_definition, verify
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState

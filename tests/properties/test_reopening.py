@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
-from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import PolicyName
+from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import AssocHullError
 from assoc_hull.model.objects import Line
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Act, Task, fresh, perform, tasks

@@ -13,8 +13,7 @@ from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.model.tables import copy_state
 from assoc_hull.study.design import StudyDesign
-from assoc_hull.study.prepared_parent import StudyParent
-from assoc_hull.study.variant_numbers import VariantNumbers
+from assoc_hull.study.prepared_parent import StudyParent, VariantNumbers
 
 SHIPS: dict[str, tuple[Callable[[], ah.Hull], dict[str, float]]] = {
     "wigley": (ah.examples.wigley, {"breadth": 0.4, "draught": 0.2, "fore_shift": 0.5}),

@@ -41,7 +41,7 @@ from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 from assoc_hull.hull.sources import Examples
 from assoc_hull.io.cad.write import write_cad
 from assoc_hull.io.classical.read import holds_definition, read_definition
-from assoc_hull.io.iges.lines import write_iges_lines
+from assoc_hull.io.iges.write import write_iges_lines
 from assoc_hull.io.mesh.closed_mesh import write_mesh
 from assoc_hull.io.surfaces.hull_surface import write_surface
 from assoc_hull.plot.plates.hull_map import hull_map

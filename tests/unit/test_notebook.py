@@ -13,7 +13,7 @@ from PIL import Image
 
 import assoc_hull as ah
 from assoc_hull.display import ShownAsText, html_table
-from assoc_hull.edit.report import EditReports
+from assoc_hull.edit.step import EditReports
 from tests.conftest import Shipped
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -23,8 +23,7 @@ from assoc_hull.analysis.hydrostatics.draughts_from_weight import (
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatic_table, hydrostatics
 from assoc_hull.analysis.hydrostatics.record import SALT
 from assoc_hull.analysis.hydrostatics.section_areas import bonjean
-from assoc_hull.analysis.panels.hull_panels import panels
-from assoc_hull.analysis.panels.section_points import section_points
+from assoc_hull.analysis.panels.hull_panels import panels, section_points
 from assoc_hull.analysis.resistance.holtrop_ship import NU, ROUGHNESS
 from assoc_hull.analysis.resistance.hull_resistance import resistance
 from assoc_hull.analysis.stability.cross_curves import cross_curves

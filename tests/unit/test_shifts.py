@@ -10,10 +10,10 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.record import Hydrostatics
 from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.variation import Shifted
 from assoc_hull.variation.comparing.line_fairness import compare_fairness, measure_fairness
-from assoc_hull.variation.shifts.swing_hull import swung_dimensions
+from assoc_hull.variation.shifts.shift_hull import swung_dimensions
 from tests.conftest import Shipped
 
 

@@ -19,8 +19,7 @@ import numpy as np
 from assoc_hull.analysis.derivatives.curve_tangents import defining_rows
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
 from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart, gather_net
-from assoc_hull.analysis.net.moved_layout import move_cells
-from assoc_hull.analysis.net.net_surface import NetSurface
+from assoc_hull.analysis.net.net_surface import NetSurface, move_cells
 from assoc_hull.analysis.net.open_ends import with_ends
 from assoc_hull.analysis.net.strip_boundaries import StripBoundary
 from assoc_hull.analysis.net.surface_layout import open_ends
@@ -28,7 +27,7 @@ from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBa
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.segments import locate_parameters, segment_start
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HullState, Particulars
 
 __all__ = [

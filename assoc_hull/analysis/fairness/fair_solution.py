@@ -1,4 +1,4 @@
-"""Displacements that take noise out of a net: battens bent less, within what the noise allows.
+"""Displacements that make a net fairer, each the least of something: within noise, within bounds.
 
 What is made least is
 
@@ -7,6 +7,34 @@ What is made least is
 with sigma the noise along the freedom of the points: a sum of squares for what noise does, and for
 the residuals a measure that lets a few stay large (a bilge, a shoulder). It is solved by weighting
 anew, w = 1 / (s^2 + r^2), each round one sparse system; bounds by an active set.
+
+The least change of a net that keeps its curvature within bounds.
+
+With residuals A d + b of a net, d the displacements of points along the normal, and curvatures
+k_0 + K d of its lines that are not to pass bounds k,
+
+    E(d) = sum over residuals i of v_i (A d)_i^2 / (s^2 + b_i^2)
+         + sum over points j of (d_j / T_j)^2
+         + sum over bounds l of w_l max(0, (k_0 + K d - k)_l)^2
+
+is least within how far each point may go. As in `least_change` it is the change of the residuals
+that is small, weighed by what was there; what is asked for is not a place but the sign of a
+curvature. [own]: fairing by a noise, or towards the residuals of another hull, adds sign changes.
+
+The least change of batten residuals that some asked displacements make.
+
+With residuals A d + b of a net, d the displacements of its free points along the normal, those
+that are asked for are held, and all others answer so that
+
+    E(d) = sum over residuals i of v_i (A d)_i^2 / (s^2 + b_i^2)
+         + sum over points k of (d_k / (T D F_k))^2,      D = the largest |d| that is asked
+
+is least within bounds. It is the *change* of the residual that is small, weighed by what was there:
+a bilge bends freely, a straight run does not. F fades with the distance from what is asked; the
+second term is a tether, without which the answer swings on beyond it as a batten does, and so are
+the bounds: nothing goes farther than a tenth more than is asked, nor more than a tenth the other
+way. [own], measured on three hulls: the residual itself in place of its change fairs what nobody
+asked for, and fairing after a dent leaves it, for a dent is signal and no noise.
 """
 
 from __future__ import annotations
@@ -27,6 +55,8 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
 __all__ = [
     "FairSolution",
+    "KeptSigns",
+    "LeastChange",
     "elimination_order",
     "estimate_noise",
     "first_factors",
@@ -35,6 +65,136 @@ __all__ = [
     "solve_battens",
     "solve_few",
 ]
+
+_SETS = 12
+"""Sets of passed bounds that are tried: they may come in turns."""
+
+
+@attrs.frozen(eq=False)
+class KeptSigns:
+    """Points that may move, and what their moves cost by themselves.
+
+    Attributes
+    ----------
+    problem : BattenProblem
+        The residuals of the net as it is.
+    scale : float, m
+        s.
+    tether : (k,), m
+        T of each point.
+    low, high : (k,), m
+        How far each may go.
+    """
+
+    problem: BattenProblem
+    scale: float
+    tether: FloatArray
+    low: FloatArray
+    high: FloatArray
+
+    def answer(
+        self, stiffer: FloatArray, rate: csr_array, beyond: FloatArray, weight: FloatArray,
+        start: FloatArray,
+    ) -> FloatArray:  # fmt: skip
+        """Give the displacements (k,), m, found from those at the start.
+
+        Parameters
+        ----------
+        stiffer : (r,)
+            v: by what the residuals weigh more.
+        rate : (l, k) sparse, 1/m2
+            K: how curvatures change with displacements.
+        beyond : (l,), 1/m
+            By how much they pass their bounds without any; negative where they keep them.
+        weight : (l,), m2
+            What it costs to pass them.
+        start : (k,), m
+            Displacements that tell which are passed at first.
+        """
+        problem = self.problem
+        a, was = problem.matrix, problem.residual
+        stiff = diags_array(stiffer / (self.scale * self.scale + was * was))
+        tether = diags_array(1.0 / (self.tether * self.tether))
+        alone = csr_array(a.T @ (stiff @ a) + tether)
+        found, before, side = start, None, None
+        for _ in range(_SETS):
+            passed = np.flatnonzero(rate @ found + beyond > 0.0)
+            if before is not None and np.array_equal(passed, before):
+                break
+            before, k = passed, csr_array(rate[passed])
+            matrix = csr_array(alone + k.T @ (diags_array(weight[passed]) @ k))
+            gradient = k.T @ (weight[passed] * beyond[passed])
+            solved = solve_in_box(matrix, gradient, self.low, self.high, side)
+            found, side = solved.values, solved.side
+        return found
+
+
+_TETHER = 0.3
+"""Times the largest displacement asked for: what a free point goes at the price of one."""
+
+_BEYOND = 0.1
+"""Times the same: how far one goes beyond what is asked, and how far the other way."""
+
+_OUT = 1e-3
+"""Where the fade is less, points stay."""
+
+
+@attrs.frozen(eq=False)
+class LeastChange:
+    """Displacements that are asked of a net.
+
+    Attributes
+    ----------
+    problem : BattenProblem
+        The residuals of the net as it is.
+    asked : (p,) int
+        Which of its unknowns are asked for.
+    amount : (p,), m
+        How far, along the normal.
+    """
+
+    problem: BattenProblem
+    asked: IntArray
+    amount: FloatArray
+
+    def answer(
+        self, fade: FloatArray, scale: float, weight: FloatArray, side: IntArray | None = None
+    ) -> tuple[FloatArray, IntArray]:
+        """Give the displacements of all unknowns, (n,), m, and at which bounds they stand, (n,).
+
+        `fade` (n,) is how far each may go, of 1; `scale` s, m; `weight` (r,) the v of residuals;
+        `side` (n,) the bounds of an answer with the same fade, to begin with.
+        """
+        problem, largest = self.problem, float(np.abs(self.amount).max())
+        held = np.zeros(len(fade))
+        held[self.asked] = self.amount
+        free = fade > _OUT
+        free[self.asked] = False
+        points = np.flatnonzero(free)
+        bounds = np.zeros(len(fade), np.int64)
+        if not len(points):
+            return held, bounds
+        # Rows of residuals that no free point has a part in change as they must.
+        part = csr_array(problem.matrix[:, points])
+        touched = np.flatnonzero(np.diff(part.indptr) > 0)
+        part = part[touched]
+        was = problem.residual[touched]
+        stiff = weight[touched] / (scale * scale + was * was)
+        forced = (problem.matrix @ held)[touched]
+        slack = 1.0 / (_TETHER * largest * fade[points]) ** 2
+        matrix = csr_array(part.T @ (diags_array(stiff) @ part) + diags_array(slack))
+        low, high = (np.full(len(points), bound) for bound in _bounds(self.amount, largest))
+        start = None if side is None else side[points]
+        found = solve_in_box(matrix, part.T @ (stiff * forced), low, high, start)
+        held[points], bounds[points] = found.values, found.side
+        return held, bounds
+
+
+def _bounds(amount: FloatArray, largest: float) -> tuple[float, float]:
+    """Give how far points may go inwards and outwards, m."""
+    beyond, other = 1.0 + _BEYOND, _BEYOND * largest
+    # What is asked for the other way by a hair is no bound.
+    return min(beyond * float(amount.min()), -other), max(beyond * float(amount.max()), other)
 
 
 @cache

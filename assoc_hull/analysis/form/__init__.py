@@ -1,6 +1,5 @@
 """Form parameters of a hull: a catalogue of definitions, and their values.
 
 `parameter` says what an entry of the catalogue and its value are, `floating_shape` what is
-measured, `form_parameters` puts them together; `entries` holds the entries, by subject, `catalogue`
-their order.
+measured, `entries` holds the entries, by subject; `form_parameters` puts them in order and gives values.
 """

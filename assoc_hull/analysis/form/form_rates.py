@@ -25,13 +25,13 @@ from assoc_hull.analysis.derivatives.hydrostatic_derivatives import (
     with_tangents,
 )
 from assoc_hull.analysis.derivatives.reused_layout import flotation_at_points
-from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.floating_shape import STATIONS, FloatingShape
+from assoc_hull.analysis.form.form_parameters import CATALOGUE
 from assoc_hull.analysis.form.longitudinal_parts import largest_section, parallel_body, ship_slices
 from assoc_hull.analysis.form.parameter import SHAPE, Absent, FormParameter, Warned, evaluate
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.floating.slices import area_with_tangents, slice_with_tangents
+from assoc_hull.geometry.floating.sections import area_with_tangents, slice_with_tangents
 from assoc_hull.geometry.numeric.dual import Dual, real
 
 __all__ = [

@@ -17,14 +17,20 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.raked_strips import StripSpans
 from assoc_hull.geometry.floating.sections import (
+    SliceIntegrals,
     areas_at,
     cross_section,
+    integrate_slice,
     sections_and_moments_below,
     sections_below,
 )
-from assoc_hull.geometry.floating.slices import SliceIntegrals, integrate_slice
-from assoc_hull.geometry.floating.tile_intersections import candidate_pairs, cut_tiles, tilt_tiles
-from assoc_hull.geometry.floating.tiles import cubic_powers, tiles_of_curves
+from assoc_hull.geometry.floating.tiles import (
+    candidate_pairs,
+    cubic_powers,
+    cut_tiles,
+    tiles_of_curves,
+    tilt_tiles,
+)
 
 __all__ = [
     "EQUAL",

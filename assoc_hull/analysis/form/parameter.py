@@ -294,7 +294,7 @@ def evaluate(
 
     Examples
     --------
-    >>> from assoc_hull.analysis.form.catalogue import CATALOGUE
+    >>> from assoc_hull.analysis.form.form_parameters import CATALOGUE
     >>> from assoc_hull.analysis.form.parameter import evaluate
     >>> from assoc_hull.analysis.form.parameter import FormValue
     >>> printed = {s: FormValue(v, "m", s) for s, v in {"B": 46.0, "T": 16.0}.items()}

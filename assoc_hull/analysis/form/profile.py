@@ -17,13 +17,12 @@ from assoc_hull.analysis.net.curve_net import ON_CENTRE, CurveNet
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.integrals.chains import area_along, clip_cubics, continuous_runs
 from assoc_hull.geometry.numeric.circle_fit import fit_circle
-from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.plane_intersections import (
     PointsOnCurves,
     coordinate_turns,
     points_at_coordinate,
 )
-from assoc_hull.geometry.splines.segments import power_coefficients
+from assoc_hull.geometry.splines.segments import power_coefficients, sample
 from assoc_hull.tolerance import length_factor
 
 __all__ = [

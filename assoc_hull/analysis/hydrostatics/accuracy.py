@@ -41,7 +41,7 @@ from assoc_hull.geometry.floating.immersion import (
 )
 from assoc_hull.geometry.floating.sections import sections_below
 from assoc_hull.geometry.numeric.quadrature import bunched_rule
-from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
 from assoc_hull.model.tables import HullState
 

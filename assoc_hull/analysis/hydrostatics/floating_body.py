@@ -20,8 +20,8 @@ from assoc_hull.arguments import checked, not_negative, number, numbers, place, 
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
-from assoc_hull.geometry.numeric.roots import brent_root
-from assoc_hull.geometry.splines.evaluation import positions, sample
+from assoc_hull.geometry.numeric.polynomials import brent_root
+from assoc_hull.geometry.splines.segments import positions, sample
 
 __all__ = [
     "CLOSE_DECK",

@@ -45,8 +45,7 @@ from assoc_hull.analysis.net.curve_net import (
     transom_areas_below,
     transom_ends,
 )
-from assoc_hull.analysis.net.kept_layout import KeptLayout
-from assoc_hull.analysis.net.net_surface import NetSurface
+from assoc_hull.analysis.net.net_surface import KeptLayout, NetSurface
 from assoc_hull.analysis.net.open_ends import with_ends
 from assoc_hull.analysis.net.surface_layout import (
     OpenEnd,
@@ -78,7 +77,7 @@ from assoc_hull.geometry.splines.backend import backend
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
 from assoc_hull.graph.derived import Objects
 from assoc_hull.model.definition.fingerprint import fingerprint
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HullState, Particulars, state_of
 
 if TYPE_CHECKING:
@@ -500,8 +499,7 @@ def body_of_state(state: HullState) -> FloatingBody:
     if not state.tunnels:
         return body
     # A hull without tunnels measures none.
-    from assoc_hull.analysis.hydrostatics.tunnel import kept_tunnels
-    from assoc_hull.analysis.hydrostatics.tunnelled_body import TunnelledBody
+    from assoc_hull.analysis.hydrostatics.tunnel import TunnelledBody, kept_tunnels
 
     return TunnelledBody(body, kept_tunnels(state))
 

@@ -42,7 +42,7 @@ from assoc_hull.analysis.hydrostatics.record import (
     Hydrostatics,
     HydrostaticTable,
 )
-from assoc_hull.analysis.hydrostatics.tunnelled_body import TunnelledBody
+from assoc_hull.analysis.hydrostatics.tunnel import TunnelledBody
 from assoc_hull.arguments import choice, flag, number, numbers
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
+from assoc_hull.geometry.numeric.polynomials import false_position
 from assoc_hull.geometry.numeric.quadrature import gauss
-from assoc_hull.geometry.numeric.roots import false_position
 
 __all__ = ["ImmersedTunnel", "MouthShape", "disc_places"]
 

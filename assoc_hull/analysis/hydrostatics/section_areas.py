@@ -17,7 +17,7 @@ from assoc_hull.analysis.hydrostatics.floating_body import (
     require_afloat,
 )
 from assoc_hull.analysis.hydrostatics.flotation import Flotation, body_of, flotation
-from assoc_hull.analysis.hydrostatics.tunnelled_body import TunnelledBody
+from assoc_hull.analysis.hydrostatics.tunnel import TunnelledBody
 from assoc_hull.analysis.net.curve_net import flat_ends_below, station_planes
 from assoc_hull.analysis.net.surface_layout import areas_between, strip_extents
 from assoc_hull.arguments import integer
@@ -29,8 +29,7 @@ from assoc_hull.geometry.floating.immersion import (
     ImmersedIntegrals,
     integrate_immersed,
 )
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner
-from assoc_hull.geometry.numeric.roots import unit_roots
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner, unit_roots
 from assoc_hull.geometry.splines.segments import power_coefficients
 from assoc_hull.model.tables import HasState, state_of
 

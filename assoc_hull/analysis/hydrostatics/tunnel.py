@@ -1,29 +1,38 @@
-"""A thruster's tunnel: a cylinder athwartships through the hull, and what it takes from it.
+"""A thruster's tunnel: a cylinder athwartships, and what it takes from the hull and when it floats.
 
 All is measured on waterlines that are cut for it, as `half_breadth` cuts them: the mouth is where
 the cylinder meets the shell as it is now, so it follows the hull whenever it is asked for anew. The
 disc is integrated along chords z = z0 + r cos t by Gauss's rule in t and along x: exact to rounding
 where the half-breadth is a polynomial of low degree.
+
+A floating body with the tunnels of its hull taken off, as far as each is immersed.
+
+Volume, moments, waterplane and its moments, wetted surface and the areas of stations are less by
+what of each tunnel lies below the plane. The girth, the deck, the transom and the extent of the
+waterplane stay those of the hull.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.hydrostatics.floating_body import Appendage
-from assoc_hull.analysis.hydrostatics.immersed_tunnel import (
-    ImmersedTunnel,
-    MouthShape,
-    disc_places,
+from assoc_hull.analysis.hydrostatics.floating_body import (
+    Appendage,
+    FloatingBody,
+    IntegralChange,
+    StationAreas,
+    WaterplaneLimits,
 )
+from assoc_hull.analysis.hydrostatics.immersed_tunnel import ImmersedTunnel, MouthShape, disc_places
 from assoc_hull.arguments import number, positive, text
 from assoc_hull.errors import BadInputError, NoMeetingError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
+from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
 from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.graph.derived import Objects
@@ -31,7 +40,7 @@ from assoc_hull.model.half_breadth import half_breadth_rows, half_breadths
 from assoc_hull.model.tables import HasState, HullState, state_of
 from assoc_hull.model.tunnel_definition import TunnelDefinition
 
-__all__ = ["Tunnel", "kept_mouths", "kept_tunnels", "measure_tunnel", "mouth_of"]
+__all__ = ["Tunnel", "TunnelledBody", "kept_mouths", "kept_tunnels", "measure_tunnel", "mouth_of"]
 
 _COUNT, _FINER = 16, 24
 """Places of the rule along each way of the disc; the finer one tells how far off the other is."""
@@ -344,3 +353,86 @@ def _sections(state: HullState, shape: MouthShape) -> dict[str, float]:
         area = 4.0 * half * float((weight * breadth[:, 0]).sum())
         found.append((at, str(lines.name[line]), area))
     return {name: area for _, name, area in sorted(found)}
+
+
+@attrs.frozen(eq=False)
+class TunnelledBody:
+    """A hull with tunnels through it; implements `FloatingBody`.
+
+    Attributes
+    ----------
+    body : FloatingBody
+        The hull without them.
+    tunnels : tuple of Tunnel
+        Through it.
+    """
+
+    body: FloatingBody
+    tunnels: tuple[Tunnel, ...]
+
+    @property
+    def limits(self) -> WaterplaneLimits:
+        """What a waterplane must lie between, and the deck edge."""
+        return self.body.limits
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What is taken of the hull that no line shows."""
+        found: tuple[str, ...] = getattr(self.body, "assumed", ())
+        return found
+
+    @property
+    def _cut(self) -> tuple[ImmersedTunnel, ...]:
+        return tuple(each.immersed for each in self.tunnels)
+
+    def measure(self, planes: FloatingPlanes) -> ImmersedIntegrals:
+        """Give the integrals below each plane."""
+        found = self.body.measure(planes)
+        for each in self._cut:
+            less = each.measure(planes)
+            found = attrs.evolve(
+                found, **{name: getattr(found, name) - value for name, value in less.items()}
+            )
+        return found
+
+    def stations(self, planes: FloatingPlanes) -> StationAreas:
+        """Give the areas of the stations below each plane, less the holes."""
+        found = self.body.stations(planes)
+        area, _ = self.holes(found.x, planes)
+        return StationAreas(found.x.copy(), found.area - area, found.names)
+
+    def holes(self, x: FloatArray, planes: FloatingPlanes) -> tuple[FloatArray, FloatArray]:
+        """Give what tunnels take of sections at x (n,): areas, m2, and moments of z, m3, (d, n)."""
+        area, moment = (np.zeros((len(planes.height), len(x))) for _ in range(2))
+        for each in self._cut:
+            for i in np.flatnonzero(np.abs(x - each.shape.x) < each.shape.radius).tolist():
+                less, turned = each.section_areas(float(x[i]), planes)
+                area[:, i] += less
+                moment[:, i] += turned
+        return area, moment
+
+    def transom(self, planes: FloatingPlanes) -> FloatArray:
+        """Give the area of transoms below each plane, (d,), m2; a tunnel ends in no transom."""
+        return self.body.transom(planes)
+
+    def changes(self, planes: FloatingPlanes) -> Sequence[IntegralChange]:
+        """Give by how much the integrals may be off: those of the hull, and of each tunnel."""
+        known = tuple(self.body.changes(planes))
+        count, stations = len(planes.height), len(self.body.stations(planes).x)
+        none = {each.name: np.zeros(count) for each in attrs.fields(ImmersedIntegrals)}
+        off = []
+        for tunnel, cut in zip(self.tunnels, self._cut, strict=True):
+            part = cut.measure(planes)["volume"] / tunnel.volume * tunnel.error
+            moved = dict(zip(("moment_x", "moment_y", "moment_z"), tunnel.centroid, strict=True))
+            immersed = {name: part * at for name, at in moved.items()} | {"volume": part}
+            off.append(
+                IntegralChange(
+                    ImmersedIntegrals(**{**none, **immersed}),
+                    np.zeros((count, stations)), np.zeros(count),
+                )
+            )  # fmt: skip
+        return (*known, *off)
+
+    def doubts(self, planes: FloatingPlanes, numbers: bool = True) -> Sequence[str]:
+        """Name what makes the integrals doubtful; `numbers` compares them by other routes too."""
+        return self.body.doubts(planes, numbers)

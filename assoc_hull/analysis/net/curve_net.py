@@ -32,7 +32,7 @@ from assoc_hull.geometry.splines.distance import closest_points_each
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.segments import last_not_above, power_coefficients, segment_start
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HullState
 
 __all__ = [

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.net.curve_net import CurveNet, sections_of
 from assoc_hull.analysis.net.surface_layout import OpenEnd
 from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, Strips
-from assoc_hull.geometry.numeric.generic_sums import common_zeros
+from assoc_hull.geometry.numeric.dual import common_zeros
 
 __all__ = ["StripsWithEnds", "with_ends"]
 

@@ -18,8 +18,7 @@ from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart
 from assoc_hull.analysis.net.strip_boundaries import StripBoundary
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.splines.evaluation import derivative, positions
-from assoc_hull.geometry.splines.segments import locate_by_knots
+from assoc_hull.geometry.splines.segments import derivative, locate_by_knots, positions
 
 __all__ = [
     "DECK",

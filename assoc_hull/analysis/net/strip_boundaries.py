@@ -16,10 +16,8 @@ from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.curve_net import CurveNet, CurvePart
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.numeric.polynomials import horner
-from assoc_hull.geometry.numeric.roots import unit_roots
-from assoc_hull.geometry.splines.evaluation import evaluate
-from assoc_hull.geometry.splines.segments import bezier_points, power_coefficients
+from assoc_hull.geometry.numeric.polynomials import horner, unit_roots
+from assoc_hull.geometry.splines.segments import bezier_points, evaluate, power_coefficients
 
 __all__ = [
     "BoundaryArc",

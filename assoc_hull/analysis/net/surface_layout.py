@@ -38,11 +38,15 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, Strips
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.sections import sections_below
 from assoc_hull.geometry.integrals.area_moments import section_area
-from assoc_hull.geometry.numeric.generic_sums import common_zeros
+from assoc_hull.geometry.numeric.dual import common_zeros
 from assoc_hull.geometry.numeric.polynomials import hermite
-from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.paths import Paths, PathShapes, bit_lengths, shape_paths
-from assoc_hull.geometry.splines.segments import bezier_points, last_not_above, sum_per_curve
+from assoc_hull.geometry.splines.segments import (
+    bezier_points,
+    evaluate,
+    last_not_above,
+    sum_per_curve,
+)
 from assoc_hull.geometry.surfaces.coons import CoonsCells
 
 __all__ = [

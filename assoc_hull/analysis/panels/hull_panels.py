@@ -1,7 +1,9 @@
-"""Panels of the immersed hull for seakeeping codes: what is called.
+"""Panels of the immersed hull for seakeeping codes, and points along its sections.
 
 `panels` takes a hull, a position and how fine panels shall be; it chooses where columns stand along
 the ship and the number of rows across, and gives a `PanelMesh`. x is from the AP, m.
+
+Points at equal lengths along immersed half sections.
 """
 
 from __future__ import annotations
@@ -29,10 +31,19 @@ from assoc_hull.analysis.panels.assemble_mesh import (
     axes_of,
 )
 from assoc_hull.analysis.panels.wet_sheets import Band, Waterplane, bands
-from assoc_hull.arguments import choice, flag, integer, number, numbers, positive, shown
+from assoc_hull.arguments import (
+    choice,
+    flag,
+    integer,
+    number,
+    numbers,
+    positive,
+    shown,
+)
 from assoc_hull.errors import BadInputError, OutOfRangeError
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedIntegrals
+from assoc_hull.geometry.splines.arc_length import CubicChains
 from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh, PanelOrigin
 from assoc_hull.model.tables import HasState, state_of
 
@@ -44,7 +55,66 @@ __all__ = [
     "columns_and_rows",
     "immersed_extent",
     "panels",
+    "section_points",
 ]
+
+_IN_SECTION_POINTS = "in section_points"
+_MOST_A_SECTION = 2_000
+
+
+def section_points(
+    hull: HasState,
+    x: object,
+    *,
+    points: int = 20,
+    draught: float | None = None,
+    draughts: tuple[float, float] | None = None,
+) -> FloatArray:
+    """Part immersed half sections of an upright hull into equal lengths.
+
+    The arguments and what is raised are those of `Hull.section_points`.
+    """
+    state = state_of(hull)
+    body = flotation(state)
+    terms: dict[str, object] = {"rho": 1.0, "shell_factor": 1.0, "appendages": ()}
+    header = header_of(hull, body, terms | {"fingerprint": ""})
+    require_numbers(draughts if draught is None else draught, body.limits)
+    position = position_of(header, draught, draughts, 0.0, "moulded")
+    planes = require_afloat([position], body.limits, header.length)
+    plane = Waterplane(*(float(each[0]) for each in attrs.astuple(planes)))
+    where = np.atleast_1d(numbers(x, "x", _IN_SECTION_POINTS))
+    count = integer(points, "points", _IN_SECTION_POINTS, least=2, most=_MOST_A_SECTION)
+    found = np.full((len(where), count, 3), np.nan)
+    sections = _sections(bands(body, plane), plane, where)
+    wet = [i for i, cubics in enumerate(sections) if len(cubics)]
+    if wet:
+        start = np.append(0, np.cumsum([len(sections[i]) for i in wet])).astype(np.int64)
+        found[wet] = CubicChains(start, np.concatenate([sections[i] for i in wet])).equal(count)
+    freeze(found)
+    return found
+
+
+def _sections(every: list[Band], plane: Waterplane, x: FloatArray) -> list[FloatArray]:
+    """Give what is wet of each section as cubics (s, 4, 3), its pieces from below."""
+    pieces: list[list[FloatArray]] = [[] for _ in x]
+    for band in every:
+        # A place at which two bands meet belongs to the one forward.
+        inside = np.flatnonzero((x >= band.x[0]) & ((x < band.x[-1]) | _last(every, band, x)))
+        q = np.interp(x[inside], band.x, np.arange(band.count + 1.0))
+        wet = band.wet(q, plane)
+        for run, curve in enumerate(wet.curve.tolist()):
+            cubics = wet.chains.cubic[wet.chains.start[run] : wet.chains.start[run + 1]]
+            pieces[int(inside[curve])].append(cubics)
+    ordered = [sorted(each, key=lambda cubics: float(cubics[0, 0, 2])) for each in pieces]
+    return [np.concatenate(each) if each else np.zeros((0, 4, 3)) for each in ordered]
+
+
+def _last(every: list[Band], band: Band, x: FloatArray) -> np.typing.NDArray[np.bool_]:
+    """Tell which places lie at the fore end of a band that no other goes on from."""
+    followed = any(other.x[0] == band.x[-1] for other in every)
+    found: np.typing.NDArray[np.bool_] = (x == band.x[-1]) & (not followed)
+    return found
+
 
 # --------------------------------------------------------------------------------------
 # Columns and rows.

@@ -14,9 +14,8 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.floating_shape import FloatingShape
-from assoc_hull.analysis.form.form_parameters import form_parameters, shape_of
+from assoc_hull.analysis.form.form_parameters import CATALOGUE, form_parameters, shape_of
 from assoc_hull.analysis.form.parameter import FormValue, evaluate
 from assoc_hull.analysis.hydrostatics.record import SALT
 from assoc_hull.analysis.resistance.calm_water_resistance import Resistance, Source

@@ -23,8 +23,7 @@ from assoc_hull.analysis.hydrostatics.floating_body import (
 )
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import position_of
 from assoc_hull.analysis.hydrostatics.record import HydrostaticHeader
-from assoc_hull.analysis.stability.righting_lever import StabilityCase, TrimRule
-from assoc_hull.analysis.stability.sinkage_and_trim import DisplacingHull
+from assoc_hull.analysis.stability.righting_lever import DisplacingHull, StabilityCase, TrimRule
 from assoc_hull.arguments import choice
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray

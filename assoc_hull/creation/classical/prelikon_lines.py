@@ -30,7 +30,7 @@ from assoc_hull.geometry.classical.checked_input import digits
 from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from assoc_hull.geometry.classical.deck import Deck
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
-from assoc_hull.geometry.numeric.roots import brent_root
+from assoc_hull.geometry.numeric.polynomials import brent_root
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
 

@@ -14,9 +14,8 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.geometry.splines.plane_intersections import PlaneIntersections, intersect_planes
-from assoc_hull.geometry.splines.segments import bezier_points
+from assoc_hull.geometry.splines.segments import bezier_points, derivative
 from assoc_hull.model.gaps import crossing_normals
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind
 from assoc_hull.model.tables import HullState

@@ -35,7 +35,7 @@ from assoc_hull.edit.adoption.thinning_state import (
 )
 from assoc_hull.geometry.curves import PointKind, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
-from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.geometry.splines.segments import derivative
 from assoc_hull.model.kinds import Role
 from assoc_hull.model.roles import Candidates, choose, role_of
 from assoc_hull.model.tables import HullState

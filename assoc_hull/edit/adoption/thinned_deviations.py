@@ -22,7 +22,7 @@ from assoc_hull.edit.adoption.thinning_state import (
 )
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.distance import closest_points_each
-from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.geometry.splines.segments import derivative
 from assoc_hull.model.gaps import crossing_normals
 from assoc_hull.model.kinds import Role
 

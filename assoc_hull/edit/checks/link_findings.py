@@ -14,8 +14,8 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.checks.finding import Finding, row_finding
-from assoc_hull.edit.checks.shape_findings import bounded
-from assoc_hull.edit.crossings.tangencies import runs_along_tangency
+from assoc_hull.edit.checks.update_findings import bounded
+from assoc_hull.edit.crossings.adopted_points import runs_along_tangency
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import tangents

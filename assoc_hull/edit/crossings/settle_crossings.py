@@ -11,15 +11,14 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.edit.crossings.adopted_points import insert_defining_point
-from assoc_hull.edit.crossings.tangencies import runs_along_tangency
+from assoc_hull.edit.crossings.adopted_points import insert_defining_point, runs_along_tangency
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.model.align_intersections import Alignment
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import generates
 from assoc_hull.model.make_objects import CrossingSpec, Maker
+from assoc_hull.model.network import Alignment
 from assoc_hull.model.roles import Candidates, choose, role_of
 from assoc_hull.model.tables import CurveIntersections, HullState
 

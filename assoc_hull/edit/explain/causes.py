@@ -14,13 +14,12 @@ import numpy as np
 
 from assoc_hull.arguments import integer, shown
 from assoc_hull.display import ShownAsText
-from assoc_hull.edit.asked_words import field_words, joined_words
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.modifications.definitions import definition_meant
-from assoc_hull.edit.report import change_text
-from assoc_hull.edit.step import Step
+from assoc_hull.edit.recording import field_words, joined_words
+from assoc_hull.edit.step import Step, change_text
 from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
-from assoc_hull.graph.trace_causes import CauseTracer, CauseTree
+from assoc_hull.graph.run_update import CauseTracer, CauseTree
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.dirty_cause import cause_of
 from assoc_hull.model.form_definition import FormDefinition

@@ -20,15 +20,14 @@ from assoc_hull.display import ShownAsText
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain.causes import Thing, Why, node_of, why_after
 from assoc_hull.edit.recording import Script, Settings
-from assoc_hull.edit.report import EditReport, Fairness
 from assoc_hull.edit.script import carry_out as carry_out_script
 from assoc_hull.edit.session import Edit, refusal_of
 from assoc_hull.edit.shapes import HullShapes, Shapes, joined
-from assoc_hull.edit.step import Step
+from assoc_hull.edit.step import EditReport, Fairness, Step
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.node import Node

@@ -18,13 +18,16 @@ import numpy as np
 from assoc_hull.edit.checks.update_findings import measure_gaps
 from assoc_hull.edit.crossings.adopted_points import rebase_adopted_points
 from assoc_hull.edit.crossings.settle_crossings import latent_intersections
-from assoc_hull.edit.followup.features import followed_feature
-from assoc_hull.edit.followup.settle_features import affected_features, set_by_hand
+from assoc_hull.edit.followup.settle_features import (
+    affected_features,
+    followed_feature,
+    set_by_hand,
+)
 from assoc_hull.edit.modification import Work
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.numeric.vectors import dot
-from assoc_hull.geometry.polylines.fitted_circle import circle_on_ends
+from assoc_hull.geometry.polylines.circular_arcs import circle_on_ends
 from assoc_hull.model.feature_geometry import line_numbers, places_off, rounded_gap, rounding_of
 from assoc_hull.model.features import Feature
 from assoc_hull.model.generated_curves import attached_curves

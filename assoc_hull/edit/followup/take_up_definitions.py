@@ -1,48 +1,411 @@
-"""What an edit asks of definitions: most of it is taken up before its update runs.
+"""Definitions and what is generated from them: taken up by an edit, let go of, made anew.
 
 New values go into the tables; curves that were edited by hand are detached; lines that are to
 come from definitions again are made so; and curves whose pieces become others get other points.
 What remains is done by the update: each point that a definition gives is evaluated. Then lines are
 put in order on which crossings have passed one another, and generated curves get the points that
 they have come to need.
+
+Generated curves that are edited by hand leave their definitions, and keep their shape.
+
+A curve is detached by whatever changes its points, their kinds, its end conditions or its plane,
+but its definitions: before the update runs, so that no definition writes over what was asked for;
+and after it, where the update itself has changed the curve.
+
+Points of a curve that comes from definitions, made anew from a recipe.
+
+That happens when the pieces of the curve are others than before, when it needs more points, or
+when a line is returned to its definitions. Points whose mark stays keep their identity, so that
+nothing that reads them loses them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeVar
 
 import attrs
 import numpy as np
 
 from assoc_hull.edit.checks.update_findings import WideGaps
-from assoc_hull.edit.followup.detach_curves import (
-    detach,
-    detached_note,
-    edited,
-    off_definitions,
-    tidy,
-)
-from assoc_hull.edit.followup.generated_curves import (
-    attachable_curves,
-    layout_now,
-    recipe_for,
-    remake_points,
-)
 from assoc_hull.edit.followup.reorder_crossings import limit_watched, renew_followers, widen_limits
-from assoc_hull.edit.modification import ROUNDS, Modification, Pending, Work
-from assoc_hull.edit.report import FormChange
-from assoc_hull.errors import BadInputError
+from assoc_hull.edit.modification import (
+    ROUNDS,
+    Modification,
+    Pending,
+    Work,
+)
+from assoc_hull.edit.step import FormChange
+from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
-from assoc_hull.model.forms.generate_points import marks_suffice
+from assoc_hull.graph.table import Column, ValueColumn
+from assoc_hull.model.form_definition import (
+    ON_FLATS,
+    FormDefinition,
+    GeneratedCurve,
+    Mark,
+)
+from assoc_hull.model.forms.generate_points import marks_for, marks_suffice
 from assoc_hull.model.forms.line_layout import layout_at
-from assoc_hull.model.generated_curves import attached_curves, end_points, forms_of, line_offset
-from assoc_hull.model.make_objects import Maker
+from assoc_hull.model.generated_curves import (
+    attached_curves,
+    end_points,
+    forms_of,
+    line_offset,
+    part_in_line,
+    points_given,
+)
+from assoc_hull.model.kinds import Sort
+from assoc_hull.model.make_objects import Maker, PointSpec
+from assoc_hull.model.network import bits_differ
 from assoc_hull.model.node import Node
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import Ends, HullState
 
-__all__ = ["DefinitionValues", "form_changes"]
+__all__ = [
+    "CurveRecipe",
+    "DefinitionValues",
+    "attachable_curves",
+    "detach",
+    "detach_rows",
+    "detached_note",
+    "edited",
+    "form_changes",
+    "layout_now",
+    "off_definitions",
+    "recipe_for",
+    "remake_points",
+    "tidy",
+    "whole",
+]
+
+V = TypeVar("V")
+
+_TOLD = 3
+"""So many curves a note names."""
+
+
+def edited(state: HullState, journal: Journal, pending: Pending) -> set[int]:
+    """Give the attached curves that the modifications of a transaction have edited by hand.
+
+    Those that it has made, or made anew, of definitions are not among them.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables, in which structure is changed already and places are not.
+    journal : Journal
+        What was written so far.
+    pending : Pending
+        What is asked for.
+    """
+    fresh = _changed(journal, state.produced.curve)
+    made_so = {state.produced.curve[number].curve for number in fresh}
+    known = {c: made for c, made in attached_curves(state).items() if c not in made_so}
+    if not known:
+        return set()
+    moved = _moved(state, journal, pending)
+    table = state.rows
+    marked = moved.union(*(_changed(journal, each) for each in (
+        table.kind, table.direction, table.sort, table.alive, table.reader, table.curve,
+    )))  # fmt: skip
+    found = {curve for curve, made in known.items() if marked.intersection(made.rows)}
+    if pending.alone:
+        found |= {c for c in known if moved.intersection(state.curves.rows[c].tolist())}
+    recipes = _changed(journal, state.curves.ends) | _changed(journal, state.curves.alive)
+    planes = _changed(journal, state.lines.offset) | _changed(journal, state.lines.normal)
+    found |= {c for c in known if c in recipes or state.line_of(c) in planes}
+    return found | {curve for curve, made in known.items() if not whole(state, made)}
+
+
+def _moved(state: HullState, journal: Journal, pending: Pending) -> set[int]:
+    """Give the points that lie, or are to lie, elsewhere by a bit."""
+    rows = np.array(sorted(pending.values), np.int64)
+    asked = np.array([pending.values[row] for row in rows.tolist()]).reshape(-1, 3) + 0.0
+    there = state.rows.xyz.data
+    found = set(rows[bits_differ(there[rows], asked)].tolist()) if len(rows) else set[int]()
+    return found | _changed(journal, state.rows.xyz)
+
+
+def _changed(journal: Journal, column: Column[np.generic] | ValueColumn[V]) -> set[int]:
+    """Give the rows of a column that differ from what they were before the transaction."""
+    if not any(column is each for each in journal.columns()):
+        return set()
+    if isinstance(column, ValueColumn):
+        held = journal.net(column)
+        pairs = zip(held.rows.tolist(), held.old, held.new, strict=True)
+        return {row for row, old, new in pairs if old != new}
+    net = journal.net(column)
+    old, new = (part.reshape(len(net.rows), -1) for part in (net.old, net.new))
+    differs = (old != new) & ~(_nan(old) & _nan(new))
+    return set(net.rows[differs.any(axis=1)].tolist())
+
+
+def _nan(values: np.typing.NDArray[np.generic]) -> np.typing.NDArray[np.bool_]:
+    return np.isnan(values) if values.dtype.kind == "f" else np.zeros(values.shape, np.bool_)
+
+
+def whole(state: HullState, made: GeneratedCurve) -> bool:
+    """Tell whether just the points of a generated curve define it, in order, but for its ends."""
+    rows: IntArray = state.curves.rows[made.curve]
+    if not state.curves.alive[made.curve]:
+        return False
+    own = np.array(made.rows, np.int64)
+    if (state.rows.sort[own] != Sort.ADOPTED).any():
+        return False
+    mine = np.isin(rows, own)
+    if not np.array_equal(rows[mine], own):
+        return False
+    return made.what in ON_FLATS or bool(mine[1:-1].all())
+
+
+def off_definitions(state: HullState, curves: Iterable[int]) -> set[int]:
+    """Give those of some attached curves that are not as the definitions have them, to the bit."""
+    known = attached_curves(state)
+    chosen = [known[curve] for curve in curves if curve in known]
+    broken = {made.curve for made in chosen if not whole(state, made)}
+    return broken | _off(state, [made for made in chosen if made.curve not in broken])
+
+
+def _off(state: HullState, chosen: Sequence[GeneratedCurve]) -> set[int]:
+    """Compare all at once; one by one where some cannot be made at all."""
+    try:
+        rows, places = points_given(state, chosen)
+    except AssocHullError:
+        if len(chosen) == 1:
+            return {chosen[0].curve}
+        return set[int]().union(*(_off(state, [made]) for made in chosen))
+    odd = rows[bits_differ(state.rows.xyz[rows], places)]
+    return set(state.rows.curve[odd, 0].tolist())
+
+
+def detach(maker: Maker, pending: Pending, curves: Iterable[int]) -> None:
+    """Let curves keep their shape whatever the definitions say; those that have gone are dropped.
+
+    The structure changes: look-ups have to be derived anew.
+    """
+    state, left = maker.state, set(curves)
+    if not left:
+        return
+    found = []
+    for made in state.generated:
+        if made.curve not in left:
+            found.append(made)
+        elif state.curves.alive[made.curve]:
+            found.append(_pruned(state, made.evolve(attached=False)))
+    maker.generated(found)
+    pending.detached += sorted(each for each in left if state.curves.alive[each])
+    pending.structural = True
+
+
+def _pruned(state: HullState, made: GeneratedCurve) -> GeneratedCurve:
+    """Give a detached curve without the points that have gone."""
+    alive = [
+        bool(state.rows.alive[row]) and int(state.rows.curve[row, 0]) == made.curve
+        for row in made.rows
+    ]
+    if all(alive):
+        return made
+    rows = tuple(row for row, here in zip(made.rows, alive, strict=True) if here)
+    marks = tuple(mark for mark, here in zip(made.marks, alive, strict=True) if here)
+    return made.evolve(rows=rows, marks=marks)
+
+
+def tidy(maker: Maker) -> None:
+    """Drop generated curves that have gone, and points that detached ones have lost."""
+    state = maker.state
+    there = [each for each in state.generated if state.curves.alive[each.curve]]
+    maker.generated(each if each.attached else _pruned(state, each) for each in there)
+
+
+def detach_rows(maker: Maker, pending: Pending, rows: IntArray) -> bool:
+    """Detach the curves that some points are generated on; tell whether there are any."""
+    known: Mapping[int, GeneratedCurve] = attached_curves(maker.state)
+    moved = set(rows.tolist())
+    left = {curve for curve, made in known.items() if moved.intersection(made.rows)}
+    detach(maker, pending, left)
+    return bool(left)
+
+
+def detached_note(state: HullState, curves: Iterable[int]) -> list[str]:
+    """Say in one note which lines were detached."""
+    lines = sorted({state.line_of(curve) for curve in curves if state.curves.alive[curve]})
+    names = [str(state.lines.name[line]) for line in lines]
+    if not names:
+        return []
+    if len(names) == 1:
+        return [f"{names[0]} is detached from the definitions; edit.reattach returns it"]
+    told = ", ".join(names[:_TOLD])
+    more = f" and {len(names) - _TOLD} more" if len(names) > _TOLD else ""
+    return [
+        f"{len(names)} lines are detached from the definitions, {told}{more}; edit.reattach "
+        "returns one"
+    ]
+
+
+def attachable_curves(state: HullState, line: int) -> list[GeneratedCurve]:
+    """Give what comes, came or may come from definitions on a line.
+
+    Examples
+    --------
+    >>> from assoc_hull.edit.followup.take_up_definitions import attachable_curves
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> attachable_curves(wigley(stations=5, waterlines=4), 0)
+    []
+    """
+    curves = [c for c in state.lines.curves[line] if state.curves.alive[c]]
+    known = {each.curve: each for each in state.generated}
+    found = [known[curve] for curve in curves if curve in known]
+    if found or not _is_section(state, line):
+        return found
+    keys = state.curves.key.data
+    return [GeneratedCurve(str(keys[c]), c, "section", "", (), (), attached=False) for c in curves]
+
+
+def _is_section(state: HullState, line: int) -> bool:
+    """Tell whether a line is a section like those that are generated."""
+    groups = {
+        int(state.lines.group[state.line_of(each.curve)])
+        for each in state.generated
+        if each.what == "section"
+    }
+    return int(state.lines.group[line]) in groups
+
+
+# --------------------------------------------------------------------------------------
+# Recipes.
+
+Vector = tuple[float, float, float]
+
+
+@attrs.frozen
+class CurveRecipe:
+    """What a generated curve is to be made of.
+
+    Attributes
+    ----------
+    layout : str
+        Its pieces.
+    marks : tuple of Mark
+        Where its points lie on them.
+    kinds : tuple of int
+        A `PointKind` each.
+    directions : tuple of (3,)
+        Directions of tangent points.
+    ends : Ends
+        End conditions.
+    """
+
+    layout: str
+    marks: tuple[Mark, ...]
+    kinds: tuple[int, ...]
+    directions: tuple[Vector, ...]
+    ends: Ends = attrs.field(factory=Ends)
+
+
+def layout_now(state: HullState, made: GeneratedCurve) -> str:
+    """Give the layout that the definitions ask for where a curve stands.
+
+    Raises
+    ------
+    BadInputError
+        A definition is missing, or the curve is not there any more.
+    """
+    place = line_offset(state, made.curve)
+    return layout_at(forms_of(state), made.what, place, part_in_line(state, made.curve))
+
+
+def recipe_for(state: HullState, made: GeneratedCurve, layout: str) -> CurveRecipe:
+    """Give the recipe of a curve by its layout, with its ends as they lie now.
+
+    Raises
+    ------
+    AssocHullError
+        The curve cannot be made.
+    """
+    if not layout:
+        return CurveRecipe(layout, (), (), ())
+    place, ends = line_offset(state, made.curve), end_points(state, [made.curve])[0]
+    marks, kinds, directions, conditions = marks_for(
+        forms_of(state), made.what, layout, place, ends,
+        made.marks if layout == made.layout and made.attached else (),
+    )  # fmt: skip
+    vectors = [(x, y, z) for x, y, z in np.asarray(directions, np.float64).reshape(-1, 3).tolist()]
+    chosen = tuple((int(piece), float(t)) for piece, t in marks)
+    numbers = tuple(np.asarray(kinds, np.int64).tolist())
+    return CurveRecipe(layout, chosen, numbers, tuple(vectors), conditions)
+
+
+def remake_points(maker: Maker, made: GeneratedCurve, recipe: CurveRecipe) -> GeneratedCurve:
+    """Give a curve the points of a recipe, its own ends before and behind them.
+
+    The result is attached; the caller puts it into the table.
+    """
+    state, journal = maker.state, maker.journal
+    rows, fresh = _rows(maker, made, recipe)
+    new = made.evolve(
+        layout=recipe.layout, marks=recipe.marks, rows=tuple(rows.tolist()), attached=True
+    )
+    _thread(maker, made, new)
+    kinds = state.rows.kind[rows].copy()
+    kinds[:, 0] = recipe.kinds
+    directions = state.rows.direction[rows].copy()
+    directions[:, 0] = np.array(recipe.directions, np.float64).reshape(-1, 3)
+    journal.put(state.rows.kind, rows, kinds)
+    journal.put(state.rows.direction, rows, directions)
+    journal.put(state.rows.sort, rows, int(Sort.ADOPTED))
+    journal.put(state.rows.anchor, rows, -1)
+    if state.curves.ends[made.curve] != recipe.ends:
+        journal.set(state.curves.ends, [made.curve], [recipe.ends])
+    _place(maker, new, fresh)
+    return new
+
+
+def _rows(maker: Maker, made: GeneratedCurve, recipe: CurveRecipe) -> tuple[IntArray, IntArray]:
+    """Give the points of a recipe, and those of them that are new; others are taken out."""
+    state = maker.state
+    same = made.layout == recipe.layout
+    known = {
+        mark: row
+        for mark, row in zip(made.marks, made.rows, strict=True)
+        if same and state.rows.alive[row]
+    }
+    missing = [mark for mark in recipe.marks if mark not in known]
+    # a key is of the place where its point first lay: that must be known before the point is made
+    bare = made.evolve(layout=recipe.layout, marks=tuple(missing), rows=(-1,) * len(missing))
+    places = points_given(state, [bare])[1]
+    specs = [PointSpec(made.curve, place, Sort.ADOPTED) for place in places]
+    fresh = maker.points(specs)
+    known |= dict(zip(missing, fresh.tolist(), strict=True))
+    rows = np.array([known[mark] for mark in recipe.marks], np.int64)
+    lost = np.setdiff1d(np.array(made.rows, np.int64), rows)
+    maker.remove_rows(lost[state.rows.alive[lost]])
+    return rows, fresh
+
+
+def _thread(maker: Maker, made: GeneratedCurve, new: GeneratedCurve) -> None:
+    """Let the new points define the curve; only lines on a flat have others than their ends."""
+    state = maker.state
+    old: IntArray = state.curves.rows[made.curve]
+    rows = np.array(new.rows, np.int64)
+    rest = old[~np.isin(old, np.union1d(np.array(made.rows, np.int64), rows))]
+    if made.what in ON_FLATS:
+        every = np.concatenate([rest, rows])
+        maker.define(made.curve, every[np.argsort(state.rows.xyz[every, 0], kind="stable")])
+        return
+    # ends that are no generated points stay: there a section meets profile and deck edge
+    first, last = rest[rest == old[0]], rest[rest == old[-1]]
+    left = rest[(rest != old[0]) & (rest != old[-1])]
+    maker.define(made.curve, np.concatenate([first, rows, last]))
+    maker.remove_rows(left[state.rows.sort[left] == Sort.ADOPTED])
+
+
+def _place(maker: Maker, new: GeneratedCurve, fresh: IntArray) -> None:
+    """Put points that stay where the definitions have them; new ones lie there already."""
+    rows, places = points_given(maker.state, [new])
+    old = ~np.isin(rows, fresh)
+    maker.journal.put(maker.state.rows.xyz, rows[old], places[old])
+
 
 # --------------------------------------------------------------------------------------
 # Generated curves that have come to need more points get them, in a second pass.

@@ -7,10 +7,9 @@ import numpy as np
 from assoc_hull.edit.crossings.adopted_points import insertion_index
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate, sample
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.segments import segment_start
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.geometry.splines.segments import derivative, evaluate, sample, segment_start
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HullState
 
 __all__ = ["deviation", "deviation_with", "quick_deviation"]

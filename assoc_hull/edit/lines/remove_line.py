@@ -18,8 +18,8 @@ from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.links import holders
-from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.make_objects import PointSpec
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HullState
 
 __all__ = ["prune_points", "remove_line", "replace_crossings"]

@@ -13,9 +13,8 @@ from itertools import pairwise
 import attrs
 import numpy as np
 
-from assoc_hull.edit.crossings.adopted_points import insert_defining_point
+from assoc_hull.edit.crossings.adopted_points import NO_ROOT, insert_defining_point
 from assoc_hull.edit.crossings.settle_crossings import make_latent
-from assoc_hull.edit.crossings.tangencies import NO_ROOT
 from assoc_hull.edit.lines.add_line import make_piece, ordered_pieces
 from assoc_hull.edit.lines.kept_runs import (
     NO_KEPT_RUNS,
@@ -36,8 +35,8 @@ from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_heights import heights_over_plane, nodes_of
 from assoc_hull.geometry.splines.plane_intersections import PlaneIntersections, intersect_planes
 from assoc_hull.geometry.splines.segments import segment_start
-from assoc_hull.model.align_intersections import align_plane_roots
 from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.network import align_plane_roots
 from assoc_hull.model.tables import CurveIntersections, Ends, HullState
 
 __all__ = [

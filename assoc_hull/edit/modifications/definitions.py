@@ -12,8 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from assoc_hull.arguments import number, shown
-from assoc_hull.edit.followup.generated_curves import attachable_curves
-from assoc_hull.edit.followup.take_up_definitions import DefinitionValues
+from assoc_hull.edit.followup.take_up_definitions import DefinitionValues, attachable_curves
 from assoc_hull.edit.modifications.roles import change_role
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError, BadInputError, UnknownNameError, WrongTypeError

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from assoc_hull.edit.drawn_runs import AskedRun, DrawnRuns, features_on
+from assoc_hull.edit.field_moves import AskedRun, DrawnRuns, features_on
 from assoc_hull.edit.hull_normals import normals_at
 from assoc_hull.edit.lines.line_planes import checked_in_planes
 from assoc_hull.edit.modifications.line_parts import LinePart, Mark, designed, held_marks, lead
@@ -20,7 +20,7 @@ from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.curves import EndKind, FloatArray, PointKind
 from assoc_hull.geometry.polylines.drawn_run import DrawnRun
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.tables import Ends

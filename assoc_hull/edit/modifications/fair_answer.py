@@ -1,7 +1,7 @@
 """Fair edits: what is asked of a few points is held, and the hull around them answers fairly.
 
 One linear solve stands in the place of the bell of a pull or the blend of a re-shaped curve: the
-least change of the batten residuals of all lines near by (`analysis.fairness.least_change`). How
+least change of the batten residuals of all lines near by (`analysis.fairness.fair_solution`). How
 far it reaches is searched for: the smallest radius whose net, as it would be published, has no new
 change of the sign of curvature in any line. All that one edit asks for is answered at once, after
 all else that it asks for, so the order of its modifications changes no bit.
@@ -17,7 +17,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.fairness.batten_problem import BattenProblem
-from assoc_hull.analysis.fairness.least_change import LeastChange
+from assoc_hull.analysis.fairness.fair_solution import LeastChange
 from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.displacement_field import (
     PointDisplacements,
@@ -39,11 +39,11 @@ from assoc_hull.errors import BadInputError, CoincidentPointsError, PointRoleErr
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Sort
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
 

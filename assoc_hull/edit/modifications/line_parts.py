@@ -14,8 +14,7 @@ import numpy as np
 
 from assoc_hull.edit.crossings.adopted_points import insert_defining_point
 from assoc_hull.edit.displacement_field import flat_distance, on_flat, on_profile
-from assoc_hull.edit.drawn_runs import features_on
-from assoc_hull.edit.field_moves import FieldMoves
+from assoc_hull.edit.field_moves import FieldMoves, features_on
 from assoc_hull.edit.modifications.reshape import ReshapeField, whole_curve
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, BlockedRunError
@@ -23,8 +22,8 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBa
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.make_objects import PointSpec
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HullState
 
 __all__ = ["LinePart", "Mark", "designed", "held_marks", "lead"]

@@ -1,7 +1,9 @@
-"""Pinned modifications: single points are moved, inserted, deleted, or change their kind.
+"""Pinned modifications: points moved, inserted, deleted, of another kind; ends of curves.
 
 A pinned edit changes the two curves of a point and what these drive; all other points keep
 their values. It is right for millimetres: it is inherently a local bump.
+
+End conditions of curves.
 """
 
 from __future__ import annotations
@@ -13,8 +15,8 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import choice, word
 from assoc_hull.arguments import place as one_place
-from assoc_hull.arguments import word
 from assoc_hull.edit.arguments import direction_in
 from assoc_hull.edit.crossings.adopted_points import insertion_index, link_adopted_points
 from assoc_hull.edit.lines.line_planes import checked_in_planes, completed_in_planes
@@ -26,21 +28,90 @@ from assoc_hull.errors import (
     PointRoleError,
     TooFewPointsError,
 )
-from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
+from assoc_hull.geometry.curves import (
+    EndKind,
+    FloatArray,
+    IntArray,
+    PointKind,
+)
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.model.address import address
+from assoc_hull.model.address import AddressBook, address
 from assoc_hull.model.gaps import tangents
 from assoc_hull.model.generated_curves import attached_curves
-from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.kinds import Role, Sort, State
 from assoc_hull.model.links import free_axes
 from assoc_hull.model.make_objects import PointSpec
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import Ends, HullState
 from assoc_hull.tolerance import IN_PLANE
 
 __all__ = [
-    "PointFreedom", "delete", "insert", "move", "move_by", "note_pinned", "pin", "put_pinned",
-    "set_kind", "unpin",
-]  # fmt: skip
+    "PointFreedom",
+    "delete",
+    "insert",
+    "move",
+    "move_by",
+    "note_pinned",
+    "pin",
+    "put_pinned",
+    "set_end",
+    "set_kind",
+    "unpin",
+]
+
+
+def set_end(
+    edit: Transaction,
+    curve: int,
+    end: str,
+    *,
+    tangent: ArrayLike | None = None,
+    curvature: ArrayLike | None = None,
+) -> None:
+    """Give a curve a direction or a curvature at an end, or leave that end free.
+
+    What is so already is not done again, but for a curve that has failed.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    curve : int
+        The curve.
+    end : {"start", "finish"}
+        Which end.
+    tangent : (3,) or None
+        Direction along the sense of the curve, any length.
+    curvature : (3,) or None, 1/m
+        Second derivative with respect to chord length.
+
+    Raises
+    ------
+    BadInputError
+        An unknown end, both conditions, or a vector that is not three finite numbers.
+    """
+    where = f"in set_end of {AddressBook(edit.state).curve_name(curve)}"
+    choice(end, "end", ("start", "finish"), where)
+    if tangent is not None and curvature is not None:
+        raise BadInputError("both a tangent and a curvature", where, "give one of the two")
+    kind, vector = EndKind.FREE, np.zeros(3)
+    if tangent is not None:
+        kind, vector = EndKind.TANGENT, direction_in(edit.state, curve, tangent, "tangent")
+    elif curvature is not None:
+        kind, vector = EndKind.CURVATURE, direction_in(edit.state, curve, curvature, "curvature")
+    old: Ends = edit.state.curves.ends[curve]
+    at = 0 if end == "start" else 1
+    x, y, z = vector.tolist()
+    given = (int(kind), (x, y, z))
+    kept = (old.kind[1 - at], old.vector[1 - at])
+    first, last = (given, kept) if at == 0 else (kept, given)
+    new = Ends((first[0], last[0]), (first[1], last[1]))
+    if new == old and edit.state.curves.state[curve] == State.CLEAN:
+        return
+    edit.journal.set(edit.state.curves.ends, [curve], [new])
+    edit.pending.by_hand.add((int(edit.state.curves.rows[curve][-at]), curve))
+    edit.pending.curves.add(curve)
+    edit.pending.moved_curves.add(curve)
+
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 _BY_DEFINITION = "set the definitions its driver is made of (edit.set_form)"

@@ -36,13 +36,13 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import generates
-from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.make_objects import PointSpec
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HullState
 
 __all__ = [

@@ -11,17 +11,17 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.displacement_field import quintic_fade
+from assoc_hull.edit.field_moves import SpreadArea, SpreadAreas, area_beside
 from assoc_hull.edit.hull_normals import normals_at
 from assoc_hull.edit.lines.line_planes import checked_in_planes
 from assoc_hull.edit.modifications.line_parts import LinePart, Mark, designed, held_marks, lead
 from assoc_hull.edit.modifications.reshape import Fade, fade_radii
-from assoc_hull.edit.spread_areas import SpreadArea, SpreadAreas, area_beside
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness.inflections import inflections
-from assoc_hull.geometry.numeric.roots import brent_root
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate
+from assoc_hull.geometry.numeric.polynomials import brent_root
+from assoc_hull.geometry.splines.segments import derivative, evaluate
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import Sort
 

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.crossings.tangencies import PlaneTangency
+from assoc_hull.edit.crossings.adopted_points import PlaneTangency
 from assoc_hull.edit.lines.kept_runs import KeptRuns
 from assoc_hull.edit.mapped_planes import (
     IN_PLANE,
@@ -24,7 +24,7 @@ from assoc_hull.edit.mapped_planes import (
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray
-from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.geometry.splines.segments import derivative
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker

@@ -16,8 +16,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.carried_net import CarriedNet
-from assoc_hull.edit.crossings.settle_crossings import one_place
-from assoc_hull.edit.crossings.tangencies import (
+from assoc_hull.edit.crossings.adopted_points import (
     NO_ROOT,
     PlaneTangency,
     clear_at_tangencies,
@@ -25,6 +24,7 @@ from assoc_hull.edit.crossings.tangencies import (
     tangency_rows,
     without_double_roots,
 )
+from assoc_hull.edit.crossings.settle_crossings import one_place
 from assoc_hull.edit.lines.kept_runs import NO_KEPT_RUNS, KeptRun, KeptRuns, suspend_roles
 from assoc_hull.edit.lines.marks import find_marks, with_tangencies
 from assoc_hull.edit.lines.plane_intersections import remove_line_plane
@@ -34,10 +34,10 @@ from assoc_hull.edit.recut.driver_image import ImageIntersections
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import NoMeetingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
-from assoc_hull.model.align_intersections import align_plane_roots
+from assoc_hull.geometry.splines.segments import derivative, evaluate
 from assoc_hull.model.kinds import BoundaryKind, Role
+from assoc_hull.model.network import align_plane_roots
 from assoc_hull.model.tables import CurveIntersections, HullState
 
 __all__ = [

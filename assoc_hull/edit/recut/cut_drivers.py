@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.crossings.tangencies import tangency_rows
+from assoc_hull.edit.crossings.adopted_points import tangency_rows
 from assoc_hull.edit.lines.plane_intersections import remove_line_plane
 from assoc_hull.edit.mapped_planes import IN_PLANE, snap_into_planes
 from assoc_hull.edit.recut.carried_points import (

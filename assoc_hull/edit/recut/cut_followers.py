@@ -19,7 +19,7 @@ from assoc_hull.edit.recut.carried_points import (
     TransformationState,
     curve_data_through,
 )
-from assoc_hull.edit.recut.driver_image import CurveImages, ImageIntersections
+from assoc_hull.edit.recut.driver_image import CurveImages, ImageIntersections, gaps_across
 from assoc_hull.edit.recut.follower_points import (
     OptionalPoint,
     choose_fair_points,
@@ -32,15 +32,14 @@ from assoc_hull.edit.recut.follower_points import (
     tie_to_crossings,
     tie_to_own_points,
 )
-from assoc_hull.edit.recut.projected_image import gaps_across
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
-from assoc_hull.model.align_intersections import align_plane_roots
+from assoc_hull.geometry.splines.segments import derivative
 from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.network import align_plane_roots
 from assoc_hull.model.tables import CurveIntersections
 
 __all__ = [

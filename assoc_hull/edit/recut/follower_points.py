@@ -20,7 +20,7 @@ from assoc_hull.edit.recut.carried_points import (
     TransformationState,
     curve_data_through,
 )
-from assoc_hull.edit.recut.projected_image import ProjectedImage, projected_image
+from assoc_hull.edit.recut.driver_image import ProjectedImage, projected_image
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.fairness.combs import DEAD_BAND, comb_integrals, curvature_sign_changes
 from assoc_hull.geometry.splines.curve_order import curve_folds

@@ -15,8 +15,6 @@ import numpy as np
 
 from assoc_hull.edit.carried_net import CarriedNet
 from assoc_hull.edit.crossings.settle_crossings import make_latent
-from assoc_hull.edit.mapped_attachments import carry_attachments
-from assoc_hull.edit.mapped_features import carry_features
 from assoc_hull.edit.mapped_planes import TransformedPlanes, carry_planes
 from assoc_hull.edit.recut.carried_points import (
     DefiningPoints,
@@ -33,7 +31,7 @@ from assoc_hull.edit.recut.cut_drivers import (
     hold_to_images,
 )
 from assoc_hull.edit.recut.cut_followers import cut_followers, cut_kept, settle_stand_ins
-from assoc_hull.edit.space_map import Affine, SpaceMap
+from assoc_hull.edit.space_map import Affine, SpaceMap, carry_attachments, carry_features
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray

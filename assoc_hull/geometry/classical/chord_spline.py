@@ -29,10 +29,13 @@ from assoc_hull.geometry.classical.checked_input import (
     wrap_angle,
 )
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner
-from assoc_hull.geometry.numeric.roots import unit_roots
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate, plane_curvature
-from assoc_hull.geometry.splines.segments import power_coefficients
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner, unit_roots
+from assoc_hull.geometry.splines.segments import (
+    derivative,
+    evaluate,
+    plane_curvature,
+    power_coefficients,
+)
 
 __all__ = [
     "ChordSpline",

@@ -26,7 +26,7 @@ from assoc_hull.geometry.classical.checked_input import (
     wrap_angle,
 )
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.numeric.roots import brent_root
+from assoc_hull.geometry.numeric.polynomials import brent_root
 
 __all__ = [
     "FREE_MODULUS",

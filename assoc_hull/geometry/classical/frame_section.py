@@ -30,7 +30,7 @@ from assoc_hull.geometry.classical.checked_input import (
 )
 from assoc_hull.geometry.classical.circular_arcs import PlaneArcs, arc_area, arc_moment
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.numeric.roots import brent_root
+from assoc_hull.geometry.numeric.polynomials import brent_root
 
 __all__ = [
     "MOST_RATIO",

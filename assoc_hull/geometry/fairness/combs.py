@@ -19,11 +19,12 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.polynomials import differentiate, horner
 from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.geometry.numeric.vectors import check_normals, dot
-from assoc_hull.geometry.splines.evaluation import plane_curvature, space_curvature
 from assoc_hull.geometry.splines.segments import (
+    plane_curvature,
     power_coefficients,
     segment_curve,
     segment_start,
+    space_curvature,
     sum_per_curve,
 )
 

@@ -1,4 +1,4 @@
-"""Five criteria of fairness as numbers, never as one score, for many curves at once.
+"""Criteria of fairness as numbers, and the residual of the loftsman's batten.
 
 Atkins asks of a fair line that its first and second derivatives are continuous, that it has no
 unwanted inflections, that it passes its offsets closely, and that it looks natural and smooth.
@@ -18,6 +18,17 @@ E3 = L^3 sum (dk)^2 / ds between their middles, and no J3.
 
 Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
 Production", J. SNAK, for the criteria; the numbers are our reading of them.
+
+The batten residual: how far a batten springs off a point that it is lifted from.
+
+The loftsman lifts the batten off one nail and lets it run through the two points on either side:
+the distance it springs is the residual of the point. For five neighbouring points at parameters t
+it is their divided difference of order four,
+
+    c_j = prod over k != j of 1 / (t_j - t_k),  scaled so that the largest |c_j| is 1,
+    residual = sum over j of c_j P_j
+
+so it is a length, and every cubic has none.
 """
 
 from __future__ import annotations
@@ -33,7 +44,46 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.geometry.splines.curve_pieces import PieceDerivatives, PiecewiseCurves
 
-__all__ = ["LIMITS", "FairnessLimits", "FairnessRecord", "OffsetDeviations", "criteria"]
+__all__ = [
+    "LIMITS",
+    "WINDOW",
+    "FairnessLimits",
+    "FairnessRecord",
+    "OffsetDeviations",
+    "batten_coefficients",
+    "batten_sharpness",
+    "criteria",
+]
+
+WINDOW = 5
+"""Points of a window: the one that is asked about, and two on either side."""
+
+
+def batten_coefficients(nodes: FloatArray) -> FloatArray:
+    """Give the coefficients of the residual of windows, (n, 5), for their parameters, (n, 5).
+
+    The parameters of a window rise; the largest coefficient of each is 1 in size.
+    """
+    found = _unscaled(nodes)
+    found /= np.abs(found).max(axis=1, keepdims=True)
+    return found
+
+
+def batten_sharpness(nodes: FloatArray) -> FloatArray:
+    """Give what times a residual of windows (n, 5) is a divided difference, (n,), 1/m4.
+
+    Those of two lines that run alike are alike, however their points are spaced.
+    """
+    found: FloatArray = np.abs(_unscaled(nodes)).max(axis=1)
+    return found
+
+
+def _unscaled(nodes: FloatArray) -> FloatArray:
+    apart = nodes[:, :, None] - nodes[:, None, :]
+    apart[:, np.arange(WINDOW), np.arange(WINDOW)] = 1.0
+    found: FloatArray = 1.0 / apart.prod(axis=2)
+    return found
+
 
 _NODES = 8
 _SAMPLES = 20

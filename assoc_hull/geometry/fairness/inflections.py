@@ -18,8 +18,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.fairness.criteria import FairnessRecord, criteria
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner
-from assoc_hull.geometry.numeric.roots import quadratic_roots
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner, quadratic_roots
 from assoc_hull.geometry.numeric.vectors import check_normals, dot
 from assoc_hull.geometry.splines.segments import power_coefficients, segment_curve, segment_start
 

@@ -45,8 +45,8 @@ from assoc_hull.geometry.floating.strip_events import LADDER, REACH, STILL
 from assoc_hull.geometry.floating.tiles import HEELED, PLAIN
 from assoc_hull.geometry.floating.waterplane_cuts import FLAT, TIE, HalfIntegrals
 from assoc_hull.geometry.numeric.jit import was_loaded
+from assoc_hull.geometry.numeric.polynomials import FLOOR, MOST_TRIALS, RELATIVE, STEPS
 from assoc_hull.geometry.numeric.quadrature import bunched_rule, gauss, lobatto
-from assoc_hull.geometry.numeric.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
 from assoc_hull.geometry.splines.paths import QUICK, SMALL
 from assoc_hull.geometry.surfaces.compiled_cells import PutCells
 from assoc_hull.geometry.surfaces.coons import CoonsStrips

@@ -16,19 +16,17 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, Strips
-from assoc_hull.geometry.floating.tile_intersections import (
+from assoc_hull.geometry.floating.tiles import (
     CriticalPoints,
+    CurveTiles,
     TiltedTiles,
     bracket_cuts,
     find_critical_points,
-    tilt_tiles,
-)
-from assoc_hull.geometry.floating.tiles import (
-    CurveTiles,
     integrate_tiles,
     tile_rows,
     tiles_of_curves,
     tiles_subset,
+    tilt_tiles,
 )
 from assoc_hull.geometry.numeric.dual import is_plain, real
 from assoc_hull.geometry.numeric.quadrature import lobatto

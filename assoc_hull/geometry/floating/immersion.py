@@ -33,8 +33,16 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.floating.immersed_strips import PreparedStrips, curve_batches, curve_states
 from assoc_hull.geometry.floating.strip_events import RefinedCurves, refine_strips, waterplane_tips
-from assoc_hull.geometry.floating.tile_intersections import TiltedTiles, candidate_pairs, tilt_tiles
-from assoc_hull.geometry.floating.tiles import HEELED, PLAIN, CurveTiles, integrate_tiles, tile_rows
+from assoc_hull.geometry.floating.tiles import (
+    HEELED,
+    PLAIN,
+    CurveTiles,
+    TiltedTiles,
+    candidate_pairs,
+    integrate_tiles,
+    tile_rows,
+    tilt_tiles,
+)
 from assoc_hull.geometry.floating.waterplane_cuts import (
     CutIntegrals,
     HalfIntegrals,
@@ -43,8 +51,7 @@ from assoc_hull.geometry.floating.waterplane_cuts import (
     integrate_cuts,
     join_extents,
 )
-from assoc_hull.geometry.numeric.dual import is_plain, real
-from assoc_hull.geometry.numeric.generic_sums import combine_rows, sum_columns_by
+from assoc_hull.geometry.numeric.dual import combine_rows, is_plain, real, sum_columns_by
 
 __all__ = [
     "FloatingPlanes",

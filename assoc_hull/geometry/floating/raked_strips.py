@@ -19,9 +19,14 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, Strips, 
 from assoc_hull.geometry.floating.immersed_strips import PreparedStrips
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.numeric.interpolation import differentiation_matrix
-from assoc_hull.geometry.numeric.polynomials import differentiate, hermite, horner
+from assoc_hull.geometry.numeric.polynomials import (
+    bracketed_roots,
+    differentiate,
+    hermite,
+    horner,
+    unit_roots,
+)
 from assoc_hull.geometry.numeric.quadrature import root_walk
-from assoc_hull.geometry.numeric.roots import bracketed_roots, unit_roots
 
 __all__ = [
     "RakedStrip",

@@ -27,18 +27,18 @@ from assoc_hull.geometry.floating.immersed_strips import (
     rounding_flickers,
     strip_states,
 )
-from assoc_hull.geometry.floating.tile_intersections import (
+from assoc_hull.geometry.floating.tiles import (
     CriticalPoints,
+    CurveTiles,
     TiltedTiles,
     critical_points_at,
     find_critical_points,
     nearest_critical_point,
+    tiles_of_curves,
     tilt_tiles,
 )
-from assoc_hull.geometry.floating.tiles import CurveTiles, tiles_of_curves
 from assoc_hull.geometry.floating.waterplane_cuts import point_extents
-from assoc_hull.geometry.numeric.dual import is_plain, real
-from assoc_hull.geometry.numeric.generic_sums import safe_sqrt
+from assoc_hull.geometry.numeric.dual import is_plain, real, safe_sqrt
 from assoc_hull.geometry.numeric.quadrature import bunched_rule
 
 __all__ = [

@@ -15,8 +15,13 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.raked_strips import StripSpans
-from assoc_hull.geometry.floating.tile_intersections import candidate_pairs, cut_tiles, tilt_tiles
-from assoc_hull.geometry.floating.tiles import cubic_powers, tiles_of_curves
+from assoc_hull.geometry.floating.tiles import (
+    candidate_pairs,
+    cubic_powers,
+    cut_tiles,
+    tiles_of_curves,
+    tilt_tiles,
+)
 from assoc_hull.geometry.floating.waterplane_cuts import tile_slopes
 from assoc_hull.geometry.numeric.interpolation import differentiation_matrix
 from assoc_hull.geometry.numeric.quadrature import lobatto, root_walk

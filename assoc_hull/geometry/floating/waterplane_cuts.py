@@ -12,10 +12,15 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.floating.tile_intersections import TiltedTiles, cut_tiles
-from assoc_hull.geometry.floating.tiles import CHUNK, CurveTiles, cubic_powers, integrate_tiles
-from assoc_hull.geometry.numeric.dual import is_plain, real
-from assoc_hull.geometry.numeric.generic_sums import safe_sqrt, sum_columns_by
+from assoc_hull.geometry.floating.tiles import (
+    CHUNK,
+    CurveTiles,
+    TiltedTiles,
+    cubic_powers,
+    cut_tiles,
+    integrate_tiles,
+)
+from assoc_hull.geometry.numeric.dual import is_plain, real, safe_sqrt, sum_columns_by
 
 __all__ = [
     "CutIntegrals",

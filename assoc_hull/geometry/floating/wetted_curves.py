@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, freeze
-from assoc_hull.geometry.numeric.polynomials import horner
-from assoc_hull.geometry.numeric.roots import unit_roots
+from assoc_hull.geometry.numeric.polynomials import horner, unit_roots
 from assoc_hull.geometry.splines.arc_length import CubicChains
 from assoc_hull.geometry.splines.paths import restrict_cubics
 

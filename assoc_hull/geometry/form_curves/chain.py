@@ -33,8 +33,12 @@ from numpy.typing import ArrayLike
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.form_curves.curve import form_at
 from assoc_hull.geometry.form_curves.integrals import form_integrals, power_form
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner
-from assoc_hull.geometry.numeric.roots import bracketed_roots, unit_roots
+from assoc_hull.geometry.numeric.polynomials import (
+    bracketed_roots,
+    differentiate,
+    horner,
+    unit_roots,
+)
 
 __all__ = ["LENGTH", "FormChain", "cubic_vertices", "straight_vertices"]
 

@@ -15,8 +15,13 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curves.curve import FormParameters
-from assoc_hull.geometry.form_curves.integrals import MiddleTerms, form_integrals, middle_terms
-from assoc_hull.geometry.form_curves.middle_vertex import centroid_extreme, with_middle
+from assoc_hull.geometry.form_curves.integrals import (
+    MiddleTerms,
+    centroid_extreme,
+    form_integrals,
+    middle_terms,
+    with_middle,
+)
 from assoc_hull.geometry.form_curves.shape import (
     crosses_itself,
     form_inflections,

@@ -21,10 +21,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.geometry.form_curves.middle_vertex import (
+from assoc_hull.geometry.form_curves.integrals import (
     area_vertex,
     fair_vertex,
+    form_integrals,
     middle_vertex,
     with_middle,
 )

@@ -19,9 +19,13 @@ from numpy.typing import ArrayLike, NDArray
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.dual import Dual, real
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner
+from assoc_hull.geometry.numeric.polynomials import (
+    differentiate,
+    horner,
+    roots_with_tangents,
+    unit_roots,
+)
 from assoc_hull.geometry.numeric.quadrature import gauss
-from assoc_hull.geometry.numeric.roots import roots_with_tangents, unit_roots
 from assoc_hull.geometry.splines.segments import (
     bezier_points,
     power_coefficients,

@@ -14,9 +14,8 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner, unit_roots
 from assoc_hull.geometry.numeric.quadrature import gauss
-from assoc_hull.geometry.numeric.roots import unit_roots
 from assoc_hull.geometry.splines.paths import restrict_cubics
 from assoc_hull.geometry.splines.segments import power_coefficients
 

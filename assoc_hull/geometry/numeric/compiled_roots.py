@@ -1,4 +1,4 @@
-"""`bracketed_roots` of `roots`, compiled: same operations in the same order, same bits.
+"""`bracketed_roots` of `polynomials`, compiled: same operations in the same order, same bits.
 
 Examples
 --------

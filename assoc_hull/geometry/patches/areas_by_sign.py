@@ -15,8 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.area_elements import bernstein_values, pairwise_sum
-from assoc_hull.geometry.patches.area_integrals import AreaIntegrator
+from assoc_hull.geometry.patches.area_integrals import (
+    AreaIntegrator,
+    bernstein_values,
+    pairwise_sum,
+)
 from assoc_hull.geometry.patches.bernstein_polynomials import transform_coefficients
 from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs

@@ -17,13 +17,18 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.adjacency import Lattice
 from assoc_hull.geometry.patches.bernstein_polynomials import (
     binomials,
     elevation,
     restriction_matrices,
 )
-from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs, select_patches
+from assoc_hull.geometry.patches.cells import (
+    CellKind,
+    Lattice,
+    SignCells,
+    ZeroSetArcs,
+    select_patches,
+)
 from assoc_hull.geometry.patches.clusters import find_clusters
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction
 

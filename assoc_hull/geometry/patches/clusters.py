@@ -10,7 +10,7 @@ Examples
 >>> import numpy as np
 >>> from assoc_hull.geometry.patches.cells import CellKind, SignCells
 >>> from assoc_hull.geometry.patches.clusters import find_clusters
->>> from assoc_hull.geometry.patches.adjacency import Lattice
+>>> from assoc_hull.geometry.patches.cells import Lattice
 >>> whole, none = np.array([[[0.0, 1.0]] * 2]), np.zeros((0, 2, 2))
 >>> zero = np.array([0])
 >>> cells = SignCells(zero, whole, zero, np.array([CellKind.ZERO]), zero - 1, none, none, zero > 0)
@@ -25,9 +25,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.adjacency import Lattice, box_clusters, touching_pairs
 from assoc_hull.geometry.patches.bezier_patches import Patches, area_stretch, patch_normals
-from assoc_hull.geometry.patches.cells import CellKind, SignCells
+from assoc_hull.geometry.patches.cells import (
+    CellKind,
+    Lattice,
+    SignCells,
+    box_clusters,
+    touching_pairs,
+)
 
 __all__ = ["Clusters", "find_clusters", "singular_clusters"]
 

@@ -14,9 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.adjacency import SIDES, Lattice, connected_labels
 from assoc_hull.geometry.patches.bezier_patches import Patches
-from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs
+from assoc_hull.geometry.patches.cells import (
+    SIDES,
+    CellKind,
+    Lattice,
+    SignCells,
+    ZeroSetArcs,
+    connected_labels,
+)
 from assoc_hull.geometry.patches.clusters import singular_clusters
 from assoc_hull.geometry.patches.line_ends import JUNCTION, ZeroSetLinks
 

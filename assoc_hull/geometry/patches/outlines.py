@@ -29,8 +29,18 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.adjacency import Lattice
-from assoc_hull.geometry.patches.arc_chains import (
+from assoc_hull.geometry.patches.bezier_patches import Patches
+from assoc_hull.geometry.patches.cells import (
+    SHORT,
+    CellKind,
+    Lattice,
+    SignCells,
+    ZeroSetArcs,
+    cancel_opposite_walks,
+    region_borders,
+    rows_of_groups,
+)
+from assoc_hull.geometry.patches.line_ends import (
     ArcChains,
     chain_arcs,
     directed_ends,
@@ -38,9 +48,6 @@ from assoc_hull.geometry.patches.arc_chains import (
     next_pieces,
     positive_on_left,
 )
-from assoc_hull.geometry.patches.bezier_patches import Patches
-from assoc_hull.geometry.patches.cell_borders import SHORT, cancel_opposite_walks, region_borders
-from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs, rows_of_groups
 
 __all__ = ["Outlines", "SignRegion", "outlines_of_region", "outlines_of_rest"]
 

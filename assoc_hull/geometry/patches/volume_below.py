@@ -26,8 +26,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.numeric.polynomials import unit_roots
 from assoc_hull.geometry.numeric.quadrature import gauss
-from assoc_hull.geometry.numeric.roots import unit_roots
 from assoc_hull.geometry.patches.bezier_patches import Patches, jets
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 

@@ -18,8 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.numeric.polynomials import differentiate
-from assoc_hull.geometry.numeric.roots import unit_roots
+from assoc_hull.geometry.numeric.polynomials import differentiate, unit_roots
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.splines.segments import (
     locate_parameters,

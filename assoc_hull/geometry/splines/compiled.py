@@ -1,8 +1,8 @@
 """The compiled backend: the operations of the numpy backend, with the same bits.
 
 `compiled_loft` and `compiled_intersections` repeat the arithmetic of `loft`, `tridiagonal`,
-`plane_heights`, `roots` and `plane_intersections` in the same order, without fastmath and fused
-multiplication, so that the last bit agrees; the tests compare them. Change both together.
+`plane_heights`, `polynomials` and `plane_intersections` in the same order, without fastmath and
+fused multiplication, so that the last bit agrees; the tests compare them. Change both together.
 
 Examples
 --------
@@ -21,7 +21,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.numeric.compiled_roots import find_roots
-from assoc_hull.geometry.numeric.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
+from assoc_hull.geometry.numeric.polynomials import FLOOR, MOST_TRIALS, RELATIVE, STEPS
 from assoc_hull.geometry.numeric.tridiagonal import MOST_LEVELS, Workspace
 from assoc_hull.geometry.splines.compiled_intersections import meet_curves, place_meetings
 from assoc_hull.geometry.splines.compiled_loft import loft_curves

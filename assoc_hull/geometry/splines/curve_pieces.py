@@ -21,8 +21,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.polynomials import differentiate, horner
 from assoc_hull.geometry.numeric.vectors import check_normals, dot
 from assoc_hull.geometry.splines.distance import closest_points_each
-from assoc_hull.geometry.splines.evaluation import space_curvature
-from assoc_hull.geometry.splines.segments import power_coefficients, segment_curve
+from assoc_hull.geometry.splines.segments import power_coefficients, segment_curve, space_curvature
 
 if TYPE_CHECKING:
     # Only named here: every hull loads this module, and half a second of scipy would come with it.

@@ -17,10 +17,13 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner
-from assoc_hull.geometry.numeric.roots import unit_roots
-from assoc_hull.geometry.splines.evaluation import positions
-from assoc_hull.geometry.splines.segments import bezier_points, power_coefficients, segment_start
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner, unit_roots
+from assoc_hull.geometry.splines.segments import (
+    bezier_points,
+    positions,
+    power_coefficients,
+    segment_start,
+)
 
 __all__ = [
     "FarthestPoints",

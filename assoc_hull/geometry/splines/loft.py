@@ -9,7 +9,7 @@ Examples
 --------
 >>> import numpy as np
 >>> from assoc_hull.geometry.curves import CurveData
->>> from assoc_hull.geometry.splines.evaluation import evaluate
+>>> from assoc_hull.geometry.splines.segments import evaluate
 >>> from assoc_hull.geometry.splines.loft import loft
 >>> spline = loft(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]])))
 >>> evaluate(spline, np.array([0]), np.array([2.5]))
@@ -33,7 +33,6 @@ from assoc_hull.geometry.numeric.tridiagonal import (
     solve_tridiagonal,
 )
 from assoc_hull.geometry.splines.backend import compiled
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate, sample
 from assoc_hull.geometry.splines.loft_rules import (
     OPEN,
     add_curvature,
@@ -43,6 +42,7 @@ from assoc_hull.geometry.splines.loft_rules import (
     set_known,
     states_of,
 )
+from assoc_hull.geometry.splines.segments import derivative, evaluate, sample
 from assoc_hull.tolerance import Tolerances
 
 __all__ = ["derivative", "evaluate", "loft", "loft_with_signed_zeros", "sample"]

@@ -23,11 +23,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner
-from assoc_hull.geometry.numeric.roots import bracketed_roots, unit_roots
+from assoc_hull.geometry.numeric.polynomials import (
+    bracketed_roots,
+    differentiate,
+    horner,
+    unit_roots,
+)
 from assoc_hull.geometry.numeric.tridiagonal import slots_of
 from assoc_hull.geometry.splines.backend import compiled
-from assoc_hull.geometry.splines.evaluation import derivative, positions
 from assoc_hull.geometry.splines.plane_heights import (
     CONTACT,
     MonotoneParts,
@@ -38,7 +41,12 @@ from assoc_hull.geometry.splines.plane_heights import (
     heights_over_plane,
     nodes_of,
 )
-from assoc_hull.geometry.splines.segments import power_coefficients, segment_curve
+from assoc_hull.geometry.splines.segments import (
+    derivative,
+    positions,
+    power_coefficients,
+    segment_curve,
+)
 
 __all__ = [
     "PlaneIntersections",

@@ -24,8 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, SplineBatch, freeze
-from assoc_hull.geometry.numeric.dual import is_plain
-from assoc_hull.geometry.numeric.generic_sums import common_zeros
+from assoc_hull.geometry.numeric.dual import common_zeros, is_plain
 from assoc_hull.geometry.splines.backend import compiled
 from assoc_hull.geometry.splines.paths import (
     Paths,

@@ -20,7 +20,7 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.numeric.quadrature import gauss
-from assoc_hull.geometry.patches.area_elements import elements_on_grid
+from assoc_hull.geometry.patches.area_integrals import elements_on_grid
 from assoc_hull.geometry.patches.bezier_patches import patch_normals, patch_points
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.cad.faces import faces_in, solids_apart, surface_of

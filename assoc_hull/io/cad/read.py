@@ -22,8 +22,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.triangulation import Facets, joined_facets
-from assoc_hull.io.cad.faces import faces_in, solids_apart, spline_of
-from assoc_hull.io.cad.hull_faces import HullFaces
+from assoc_hull.io.cad.faces import HullFaces, faces_in, solids_apart, spline_of
 from assoc_hull.io.cad.kernel import MILLIMETRES, quiet_kernel, require_installed
 from assoc_hull.io.child_process import ChildSession, limits_for
 from assoc_hull.io.units import METRES, refuse_other_unit

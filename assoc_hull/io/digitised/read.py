@@ -21,16 +21,19 @@ from assoc_hull.io.digitised.bulwarks import below_deck
 from assoc_hull.io.digitised.one_hull import take_one_hull
 from assoc_hull.io.digitised.rhino import rhino_lines
 from assoc_hull.io.digitised.text import parse_lines
-from assoc_hull.io.lines.boundary_holes import polyline_distance, report_holes, with_met_ends
-from assoc_hull.io.lines.drawn_twice import distances_off, drawn_once
 from assoc_hull.io.lines.mend_lines import (
+    distances_off,
+    drawn_once,
     join_pieces,
     join_width_text,
     nearest_ends,
+    polyline_distance,
     put_in_order,
     put_pieces_in_order,
     report_crossings,
+    report_holes,
     report_joins,
+    with_met_ends,
 )
 from assoc_hull.io.lines.raw_lines import (
     BOUNDARIES,

@@ -13,10 +13,9 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.dxf.document import NAMES
 from assoc_hull.io.dxf.entities import DrawingEntity, RawCurve, RawSpline
-from assoc_hull.io.dxf.plan_layout import VIEW_AXES, PlanView
-from assoc_hull.io.dxf.plan_sheet import PLACE, VIEW_ORIGIN
+from assoc_hull.io.dxf.lines import NAMES
+from assoc_hull.io.dxf.lines_plan import PLACE, VIEW_AXES, VIEW_ORIGIN, PlanView
 from assoc_hull.io.reports import Notebook
 
 __all__ = ["names_of", "plan_curves"]

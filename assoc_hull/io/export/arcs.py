@@ -17,7 +17,7 @@ import numpy as np
 from assoc_hull.analysis.production_arcs import ArcLine, ArcLines
 from assoc_hull.arguments import choice, file_path
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.dxf.document import drawing_text, layer_name, tag_entity
+from assoc_hull.io.dxf.lines import drawing_text, layer_name, tag_entity
 from assoc_hull.io.write_file import write_whole
 
 __all__ = [

@@ -22,8 +22,7 @@ import attrs
 
 from assoc_hull.arguments import choice, file_path
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.dxf.document import DXF_UNITS
-from assoc_hull.io.dxf.lines import lines_drawing
+from assoc_hull.io.dxf.lines import DXF_UNITS, lines_drawing
 from assoc_hull.io.dxf.lines_plan import plan_drawing
 from assoc_hull.io.export.britfair import dumps_britfair
 from assoc_hull.io.export.delftship import dumps_delftship, dumps_delftship_offsets
@@ -31,7 +30,7 @@ from assoc_hull.io.export.ghs_geometry import FOOT, dumps_gf
 from assoc_hull.io.export.offset_table import offsets_csv, offsets_of, offsets_xlsx
 from assoc_hull.io.export.sections import sections_to_export
 from assoc_hull.io.hull_json import readable_text
-from assoc_hull.io.iges.lines import iges_of_lines
+from assoc_hull.io.iges.write import iges_of_lines
 from assoc_hull.io.lines.line_points import lines_as_points
 from assoc_hull.io.lines.own_lines import tell_losses
 from assoc_hull.io.reports import ExportBook, ExportReport

@@ -69,8 +69,8 @@ from assoc_hull.io.hull_json import read_hull_json, write_hull_json
 from assoc_hull.io.open_databases import is_hull_file, is_open_here, log_file
 from assoc_hull.io.write_file import take_place
 from assoc_hull.model.change import TableChange, change_of
-from assoc_hull.model.definition.hash_tree import root_of
-from assoc_hull.model.definition.verify import Difference
+from assoc_hull.model.definition.fingerprint import root_of
+from assoc_hull.model.definition.restore import Difference
 from assoc_hull.model.packed_change import with_strays
 
 __all__ = [

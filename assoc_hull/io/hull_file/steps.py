@@ -20,11 +20,10 @@ from numpy.typing import NDArray
 
 from assoc_hull.edit.document import Label
 from assoc_hull.edit.recording import Script, VariedValues
-from assoc_hull.edit.report import Counting, EditReport, Led, Movement
-from assoc_hull.edit.step import Rerun, Step, StepBody
+from assoc_hull.edit.step import Counting, EditReport, Led, Movement, Rerun, Step, StepBody
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.network import Readers
+from assoc_hull.graph.run_update import Readers
 from assoc_hull.io.hull_file.guard import MOST_BYTES, MOST_TEXT, parse_json, read_rows
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
 from assoc_hull.model.attachments import ATTACHMENTS, Attachment

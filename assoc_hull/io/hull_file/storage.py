@@ -46,8 +46,7 @@ import numpy as np
 
 from assoc_hull.edit.checks.update_findings import plane_normals
 from assoc_hull.edit.document import Document, Label
-from assoc_hull.edit.report import EditReport, Fairness
-from assoc_hull.edit.step import Rerun, Step, StepBody
+from assoc_hull.edit.step import EditReport, Fairness, Rerun, Step, StepBody
 from assoc_hull.errors import (
     AssocHullError,
     DamagedFileError,
@@ -56,7 +55,7 @@ from assoc_hull.errors import (
     StaleHullError,
 )
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.graph.gate import Gate
+from assoc_hull.graph.derived import Gate
 from assoc_hull.graph.journal import Journal, distinct
 from assoc_hull.io.hull_file.check import require_sound_tables, require_whole_history
 from assoc_hull.io.hull_file.database import (
@@ -92,8 +91,7 @@ from assoc_hull.io.open_databases import (
 )
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.change import TableChange, change_of, with_signed_zeros
-from assoc_hull.model.definition.fingerprint import fingerprint
-from assoc_hull.model.definition.hash_tree import HashTree, is_root
+from assoc_hull.model.definition.fingerprint import HashTree, fingerprint, is_root
 from assoc_hull.model.packed_change import with_strays
 from assoc_hull.model.tables import HullState, copy_into, copy_state
 

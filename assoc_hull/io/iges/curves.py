@@ -34,7 +34,7 @@ from assoc_hull.io.iges.entities import (
     unit_of,
 )
 from assoc_hull.io.iges.file import DirectoryEntry, IgesFile, IgesRecord
-from assoc_hull.io.iges.surface_entities import KINDS, SILENT
+from assoc_hull.io.iges.surfaces import KINDS, SILENT
 from assoc_hull.io.lines.own_lines import IMAGE, MARK, OwnLines, TextedCurve, own_lines
 
 __all__ = ["curves_of_iges", "holds_surfaces", "own_iges_lines"]

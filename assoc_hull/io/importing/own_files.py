@@ -11,8 +11,8 @@ from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.patches.spline_curve import SplineCurve
 from assoc_hull.graph.journal import Journal
-from assoc_hull.io.dxf.document import IN_SPACE, NAMES
 from assoc_hull.io.dxf.entities import DrawingEntity, drawing_entities, drawing_unit, drawn_spline
+from assoc_hull.io.dxf.lines import IN_SPACE, NAMES
 from assoc_hull.io.iges.curves import own_iges_lines
 from assoc_hull.io.iges.file import looks_like_iges
 from assoc_hull.io.importing.options import ImportOptions

@@ -17,7 +17,7 @@ from assoc_hull.edit.adoption.latent_crossings import at_ends
 from assoc_hull.edit.checks.hull_findings import check
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.io.importing.verdict import Findings, ImportFinding
 from assoc_hull.io.slicing.boundary_curves import BoundaryCurve
 from assoc_hull.model.address import AddressBook

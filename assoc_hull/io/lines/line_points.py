@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.splines.evaluation import positions
+from assoc_hull.geometry.splines.segments import positions
 from assoc_hull.io.lines.slices import AXES
 from assoc_hull.model.kinds import State
 from assoc_hull.model.tables import HullState

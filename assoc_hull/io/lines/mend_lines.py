@@ -1,12 +1,31 @@
-"""Mending lines of points: gaps between loose ends joined, points put in order.
+"""Mending lines of points: gaps joined, order found, doubles dropped, holes of boundaries closed.
 
 Both cut and digitised lines come as pieces with loose ends. Ends within `Gaps.join` are joined,
 wider gaps up to `Gaps.refuse` are an error. Lines that turn back or cross themselves are put in
 order where one order is plain, and reported else. Points are (n, 3), m.
+
+Lines that are drawn twice over, or in pieces that overlap: each part of a line is kept once.
+
+Drawings hold copies of a line on one another, and pieces that go on for some points beside the
+next one. Two curves in one place are no net: what lies along other pieces of its line is left out,
+or cut off where the other begins. Points are (n, 3), m; pieces of one side of the hull.
+
+Holes of boundary curves: ends of their pieces that meet nothing, and what closes them.
+
+A net of a hull closes only where profile, deck edge and transom run on without a break. A piece may
+end on another boundary curve or on another piece; two ends that meet nothing leave a hole.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.io.lines.mend_lines import polyline_distance
+>>> float(polyline_distance(np.array([[0.0, 0, 0], [4, 0, 0]]), np.array([1.0, 0, 3])))
+3.0
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import attrs
@@ -14,7 +33,12 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.polylines.operations import distinct_points, order_paths, self_crossings
+from assoc_hull.geometry.polylines.operations import (
+    cumulative_lengths,
+    distinct_points,
+    order_paths,
+    self_crossings,
+)
 from assoc_hull.io.lines.raw_lines import RawPiece
 from assoc_hull.io.lines.slices import GapJoin, Gaps, LinePiece
 from assoc_hull.io.reports import Notebook
@@ -23,14 +47,157 @@ if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
 __all__ = [
+    "HOLE",
+    "distances_off",
+    "drawn_once",
     "join_pieces",
     "join_width_text",
     "nearest_ends",
+    "polyline_distance",
     "put_in_order",
     "put_pieces_in_order",
     "report_crossings",
+    "report_holes",
     "report_joins",
+    "with_met_ends",
 ]
+
+# Lengths of this module are those of hulls of 100 m and more, and less in proportion for others.
+
+_AGAIN = 0.1
+"""A piece that passes others of its line by no more than this (m) is drawn again."""
+
+_SHARE = 0.25
+"""A short one by no more than this part of its length: it may close a gap beside them."""
+
+_MOST_COMPARED = 24
+"""Lines in more pieces are not looked at: each is compared with each."""
+
+_ALIKE = 5e-3
+"""Pieces that differ by more than this (m) where they are drawn twice are suspected."""
+
+
+def drawn_once(raw: list[RawPiece], book: Notebook, small: float) -> list[RawPiece]:
+    """Give the pieces without what others of their line have too; `small` is that of lengths."""
+    lines: dict[str, list[RawPiece]] = {}
+    for each in raw:
+        lines.setdefault(each.line, []).append(each)
+    twice, over = list[str](), list[str]()
+    unlike: dict[str, float] = {}
+    found: list[RawPiece] = []
+    for name, pieces in lines.items():
+        if not 1 < len(pieces) <= _MOST_COMPARED:
+            found += pieces
+            continue
+        kept, covered = _without_covered(pieces, small)
+        twice += [name] * (len(pieces) - len(kept))
+        kept, cut, overlapped = _without_overlaps(kept, small)
+        over += [name] * cut
+        found += kept
+        unlike[name] = max(covered, overlapped)
+    _report(book, twice, "are drawn on others of their line and left out")
+    _report(book, over, "overlap the next one of their line and are cut there")
+    worst = max(unlike, key=lambda name: unlike[name], default="")
+    if (off := unlike.get(worst, 0.0)) > small * _ALIKE:
+        many = sum(each > small * _ALIKE for each in unlike.values())
+        what = f"{many} lines differ where they are drawn twice, by up to {1e3 * off:.3g} mm"
+        what += f" ({worst}): one was left out; leave out the one that is wrong"
+        book.suspect("drawn twice", "the lines", what, off)
+    return found
+
+
+def _report(book: Notebook, names: list[str], what: str) -> None:
+    if names:
+        what = f"{len(names)} pieces, as of {names[0]}, {what}"
+        book.repair("drawn twice", "the lines", what, len(names))
+
+
+def _without_covered(pieces: list[RawPiece], small: float) -> tuple[list[RawPiece], float]:
+    """Leave out pieces that lie along longer ones; gives the farthest that one lies off, m."""
+    kept, worst = list(pieces), 0.0
+    sizes = [_length(each.points) for each in pieces]
+    for i in np.argsort(sizes, kind="stable").tolist():
+        others = [each for each in kept if each is not pieces[i]]
+        near = min(small * _AGAIN, _SHARE * sizes[i])
+        ends = pieces[i].points[[0, -1]]
+        if not others or distances_off(ends, others).max() > near:
+            continue
+        points = pieces[i].points
+        middles = 0.5 * (points[1:] + points[:-1])
+        off = float(distances_off(np.concatenate([points, middles]), others).max())
+        if off <= near:
+            kept, worst = others, max(worst, off)
+    return kept, worst
+
+
+def _without_overlaps(pieces: list[RawPiece], small: float) -> tuple[list[RawPiece], int, float]:
+    """Cut pieces off where another goes on; gives how many, and how far they lie apart, m."""
+    kept, cut, worst = list(pieces), 0, 0.0
+    for i in range(len(kept)):
+        for j in range(len(kept)):
+            if i == j:
+                continue
+            off = _overlap(kept[i].points, kept[j].points, small)
+            if off is not None:
+                points, apart = off
+                kept[j] = attrs.evolve(kept[j], points=points)
+                cut, worst = cut + 1, max(worst, apart)
+    return kept, cut, worst
+
+
+def _overlap(one: FloatArray, other: FloatArray, small: float) -> tuple[FloatArray, float] | None:
+    """Give the other without what it has beside the one, and how far these lie apart there, m.
+
+    An end of each lies beside the other, away from its ends: so one goes on as the other begins.
+    """
+    near = small * _AGAIN
+    if min(len(one), len(other)) < 2:
+        return None  # a point lies along nothing
+    for end in (one[-1], one[0]):
+        place, off = _along(other, end)
+        for turned in (other, other[::-1]):
+            at = place if turned is other else _length(other) - place
+            # The part that is drawn twice is longer than what its ends may be off.
+            if off > near or not 2.0 * near < at < _length(other) - near:
+                continue
+            run = cumulative_lengths(turned)
+            double, rest = turned[run < at], turned[run > at + near]
+            apart = float(distances_off(double, [RawPiece("", one, "")]).max())
+            if apart <= near and len(rest):
+                return np.concatenate([end[None], rest]), apart
+    return None
+
+
+def _along(points: FloatArray, place: FloatArray) -> tuple[float, float]:
+    """Give how far along a polyline the place of it nearest to another lies, and how near, m."""
+    start, step = points[:-1], np.diff(points, axis=0)
+    square = np.maximum((step * step).sum(axis=1), 1e-12)
+    part = np.clip(((place - start) * step).sum(axis=1) / square, 0.0, 1.0)
+    away = np.linalg.norm(start + part[:, None] * step - place, axis=1)
+    best = int(away.argmin())
+    leg = float(np.sqrt(square[best]))
+    return float(cumulative_lengths(points)[best]) + float(part[best]) * leg, float(away[best])
+
+
+def _length(points: FloatArray) -> float:
+    return float(cumulative_lengths(points)[-1])
+
+
+def distances_off(points: FloatArray, pieces: list[RawPiece]) -> FloatArray:
+    """Give how far points lie off the polylines of pieces, (n,), m."""
+    nearest = np.full(len(points), np.inf)
+    for piece in pieces:
+        start, step = piece.points[:-1], np.diff(piece.points, axis=0)
+        if not len(step):
+            start, step = piece.points, np.zeros_like(piece.points)
+        square = np.maximum((step * step).sum(axis=1), 1e-12)
+        for i in range(0, len(points), 500):
+            off = points[i : i + 500, None] - start
+            part = np.clip((off * step).sum(axis=2) / square, 0.0, 1.0)
+            far = np.linalg.norm(off - part[:, :, None] * step, axis=2).min(axis=1)
+            nearest[i : i + 500] = np.minimum(nearest[i : i + 500], far)
+    return nearest
+
 
 # --------------------------------------------------------------------------------------
 # Gaps.
@@ -312,3 +479,84 @@ def report_joins(joins: list[GapJoin], book: Notebook, factor: float = 1.0) -> N
             f"{1e3 * widest.gap:.3g} mm in {widest.line}"
         )
         book.repair("join", "the lines", what, widest.gap)
+
+
+HOLE = "open boundary"
+"""The kind of what `report_holes` tells: a net with such a hole does not close."""
+
+
+def polyline_distance(points: FloatArray, place: FloatArray) -> float:
+    """Give how far (m) a place lies off a polyline (n, 3)."""
+    start, step = points[:-1], np.diff(points, axis=0)
+    part = ((place - start) * step).sum(axis=1) / np.maximum((step * step).sum(axis=1), 1e-12)
+    foot = start + np.clip(part, 0.0, 1.0)[:, None] * step
+    return float(np.linalg.norm(foot - place, axis=1).min())
+
+
+def with_met_ends(
+    pieces: list[LinePiece], others: Sequence[tuple[str, FloatArray]], reach: float
+) -> list[LinePiece]:
+    """Name what lies under the ends of the pieces of a boundary curve; "loose" where nothing does.
+
+    `others` are polylines of other boundary curves with their names; `reach` (m) is how near an end
+    lies to one that it is on. An end in the very place of another piece of its own is met by it.
+    """
+    found = []
+    for number, piece in enumerate(pieces):
+        rest = [each.points for k, each in enumerate(pieces) if k != number]
+        first, last = (_under(piece.points[-end], rest, others, reach) for end in (0, 1))
+        found.append(attrs.evolve(piece, ends=(first, last)))
+    return found
+
+
+def _under(
+    place: FloatArray,
+    own: Sequence[FloatArray],
+    others: Sequence[tuple[str, FloatArray]],
+    reach: float,
+) -> str:
+    for name, points in others:
+        if polyline_distance(points, place) < reach:
+            return name
+    return (
+        "itself" if any(polyline_distance(each, place) <= SAME_POINT for each in own) else "loose"
+    )
+
+
+_WIDEST = 1.0
+"""Of a hull of 100 m, of shorter ones less in proportion: ends farther apart (m) than this may end
+on a part that the file does not hold, as the end of a bossing."""
+
+
+def report_holes(
+    name: str, pieces: Sequence[LinePiece], book: Notebook, factor: float = 1.0
+) -> None:
+    """Report ends of pieces that face one another across a hole, the narrowest first.
+
+    `factor` is that of lengths, by the size of the hull.
+    """
+    free = [
+        (number, piece.points[-end])
+        for number, piece in enumerate(pieces)
+        for end in (0, 1)
+        if not piece.closed and piece.ends[end] == "loose"
+    ]
+    pairs = sorted(
+        (float(np.linalg.norm(free[i][1] - free[j][1])), i, j)
+        for i in range(len(free))
+        for j in range(i + 1, len(free))
+        if free[i][0] != free[j][0]
+    )
+    used, holes = set[int](), 0
+    for gap, i, j in pairs:
+        # So many holes part so many pieces: the ends that are left are those of the whole curve.
+        if used & {i, j} or holes == len(pieces) - 1 or gap > factor * _WIDEST:
+            continue
+        used |= {i, j}
+        holes += 1
+        (x, y, z), width = (0.5 * (free[i][1] + free[j][1])).tolist(), join_width_text(gap)
+        what = (
+            f"a hole of {1e3 * gap:.4g} mm at ({x:.5g}, {y:.5g}, {z:.5g}) m, where two of its "
+            f"pieces end: no net closes; draw the curve on, or give join= of {width} m or more"
+        )
+        book.suspect(HOLE, name, what, gap)

@@ -21,8 +21,8 @@ from assoc_hull.arguments import once
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import EndKind, PointKind, SplineBatch
 from assoc_hull.geometry.patches.spline_curve import SplineCurve
-from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.io.reports import ExportBook
 from assoc_hull.model.kinds import OWN, BoundaryKind, Sort
 from assoc_hull.model.line_source import LineSource, Origin, line_curve_data

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.surfaces.triangles import Triangles, boundary_edges, sheet_labels
-from assoc_hull.io.mesh.axis_change import AxisChange
+from assoc_hull.io.mesh.frame import AxisChange
 from assoc_hull.io.mesh.repair import tell_branches, tell_parts
 from assoc_hull.io.reports import Notebook
 

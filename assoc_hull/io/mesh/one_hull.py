@@ -31,8 +31,7 @@ from assoc_hull.io.lines.several_hulls import (
     water_levels,
 )
 from assoc_hull.io.mesh.appendages import without_appendages
-from assoc_hull.io.mesh.axis_change import AxisChange
-from assoc_hull.io.mesh.frame import half_side, mirror_error
+from assoc_hull.io.mesh.frame import AxisChange, half_side, mirror_error
 from assoc_hull.io.mesh.repair import facet_depth, tell_parts
 from assoc_hull.io.mesh.shell import cut_faces
 from assoc_hull.io.reports import Notebook

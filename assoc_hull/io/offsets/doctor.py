@@ -14,9 +14,8 @@ import numpy as np
 from assoc_hull.arguments import file_path, flag, integer, regular_file
 from assoc_hull.errors import BadInputError
 from assoc_hull.fairing.offsets_doctor import DoctorReport, OffsetFinding, examine
-from assoc_hull.io.offsets.printed import rows_in_order
 from assoc_hull.io.offsets.read import read_printed
-from assoc_hull.io.offsets.sheet import OffsetSheet
+from assoc_hull.io.offsets.sheet import OffsetSheet, rows_in_order
 from assoc_hull.io.open_databases import is_hull_file
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.tables.table_text import read_text

@@ -18,9 +18,9 @@ from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, freeze
 from assoc_hull.geometry.polylines.operations import runs_where
-from assoc_hull.geometry.splines.evaluation import derivative, sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.geometry.splines.segments import derivative, sample
 from assoc_hull.io.lines.raw_lines import plane_name
 from assoc_hull.io.lines.slices import ASSOCIATIONS
 from assoc_hull.io.offsets.flat_runs import straight_runs_of

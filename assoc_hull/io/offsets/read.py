@@ -23,7 +23,6 @@ from assoc_hull.io.offsets.damage import (
     examine_lines,
 )
 from assoc_hull.io.offsets.hints import OffsetHints, read_hints
-from assoc_hull.io.offsets.printed import printed_offsets, rows_in_order
 from assoc_hull.io.offsets.scale import (
     OffsetScale,
     PrintedSizes,
@@ -35,7 +34,13 @@ from assoc_hull.io.offsets.scale import (
     settle_zero,
     station_places,
 )
-from assoc_hull.io.offsets.sheet import OffsetColumn, OffsetSheet, read_sheet
+from assoc_hull.io.offsets.sheet import (
+    OffsetColumn,
+    OffsetSheet,
+    printed_offsets,
+    read_sheet,
+    rows_in_order,
+)
 from assoc_hull.io.offsets.suspicions import (
     ExaminedTable,
     examine_offsets,

@@ -12,9 +12,9 @@ import attrs
 import numpy as np
 
 from assoc_hull.fairing.offsets_doctor import PrintedOffsets, examine
-from assoc_hull.fairing.table_rules import SHARED
+from assoc_hull.fairing.table_residuals import SHARED
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.offsets.printed import eighths
+from assoc_hull.io.offsets.sheet import eighths
 from assoc_hull.io.reports import Notebook
 from assoc_hull.tolerance import length_factor
 

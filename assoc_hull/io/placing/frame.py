@@ -15,10 +15,8 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.lines.ship_frame import ShipFrame, StatedPlaces
-from assoc_hull.io.placing.keel import Keel, measure_keel
 from assoc_hull.io.placing.options import FileAxes, FrameOptions, same_place
-from assoc_hull.io.placing.outline import HullOutline, Level
-from assoc_hull.io.placing.stem import find_stem
+from assoc_hull.io.placing.outline import HullOutline, Keel, Level, find_stem, measure_keel
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.units import METRES
 

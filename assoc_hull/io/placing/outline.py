@@ -1,14 +1,22 @@
-"""Outline of a hull that is not placed yet: what tells where base line and perpendiculars are.
+"""Outline of a hull that is not placed yet: base line, perpendiculars, bottom, stem.
 
 A hull is known here by straight edges in space (of triangles, or along lines), by the segments of
 its contour in the centre plane, and by its deck edge. All is in m, x forward, y across the ship and
 z up, with the origin of the file.
+
+The bottom of a hull on the centre line: its lowest place, its rake, and what hangs below it.
+
+The base line goes by the bottom between .3 and .7 of the waterline's length: domes and bulbs lie
+before that stretch, skegs and bossings behind it, and a fin on it is told by its steep ends.
+
+Where the stem meets a waterline: behind a bulb that pierces it, and above one that it cuts.
 """
 
 from __future__ import annotations
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
@@ -17,7 +25,11 @@ from assoc_hull.io.lines.slices import HullSlices, SliceLine
 
 __all__ = [
     "HullOutline",
+    "Keel",
     "Level",
+    "StemPlace",
+    "find_stem",
+    "measure_keel",
     "outline_of_mesh",
     "outline_of_sections",
     "outline_of_slices",
@@ -295,3 +307,206 @@ def _contour_of_ends(slices: HullSlices) -> FloatArray:
 def _foot(points: FloatArray) -> FloatArray:
     """Give x and z of the lowest point."""
     return np.asarray(points[int(points[:, 2].argmin())][[0, 2]])
+
+
+_STRETCH = (0.3, 0.7)
+_KEEL_SAMPLES = 81
+
+_FIN = 0.1
+"""What hangs by more than this part of the depth below a bottom on both sides of it is a fin."""
+
+_STEEP = 0.15
+"""The ends of a fin rise by more than this; no bottom amidships does."""
+
+_RAKE = 2e-3
+"""A keel that rises by less than this part of Lpp is level."""
+
+_STRAIGHT = 0.1
+"""A raked keel leaves a straight line by at most this part of its rise; else it is curved."""
+
+
+@attrs.frozen
+class Keel:
+    """The bottom of a hull amidships.
+
+    Attributes
+    ----------
+    low : float, m
+        Its lowest height.
+    at : float, m
+        Where that is.
+    rise : float
+        Rise forward in m per m of a straight keel; 0 of a level or a curved one.
+    fin : float or None, m
+        How deep a fin on the stretch hangs below it.
+    """
+
+    low: float
+    at: float
+    rise: float = 0.0
+    fin: float | None = None
+
+
+def measure_keel(outline: HullOutline, aft: float, fore: float) -> Keel:
+    """Measure the bottom between .3 and .7 of a waterline from `aft` to `fore`, m."""
+    first, last = (aft + part * (fore - aft) for part in _STRETCH)
+    x = np.linspace(first, last, _KEEL_SAMPLES)
+    z = outline.bottom(x)
+    known = np.isfinite(z)
+    if not known.any():
+        return _without_contour(outline, first, last)
+    x, z = x[known], z[known]
+    depth = float(np.ptp(outline.xyz[:, 2]))
+    fin = _fins(x, z, depth)
+    deepest = float(z.min())
+    hull_x, hull_z = _vertices(outline, first, last)
+    if fin.any():
+        x, z = x[~fin], z[~fin]
+    elif len(hull_z):  # ends of segments are lower than what lies between samples
+        x, z = np.append(x, hull_x), np.append(z, np.maximum(hull_z, deepest - 0.05 * depth))
+    row = int(z.argmin())
+    low = float(z[row])
+    return Keel(low, float(x[row]), _rise(x, z, fore - aft), low - deepest if fin.any() else None)
+
+
+def _without_contour(outline: HullOutline, first: float, last: float) -> Keel:
+    """Take the lowest point there of a hull that does not reach its centre plane."""
+    x = outline.xyz[:, 0]
+    on = (first <= x) & (x <= last)
+    places = outline.xyz[on] if on.any() else outline.xyz
+    row = int(places[:, 2].argmin())
+    return Keel(float(places[row, 2]), float(places[row, 0]))
+
+
+def _vertices(outline: HullOutline, first: float, last: float) -> tuple[FloatArray, FloatArray]:
+    """Give the lowest corner of the contour on the stretch, as arrays of one, or of none."""
+    corner = outline.centre.reshape(-1, 2)
+    on = corner[(first <= corner[:, 0]) & (corner[:, 0] <= last)]
+    if not len(on):
+        return np.zeros(0), np.zeros(0)
+    lowest = on[int(on[:, 1].argmin())]
+    return lowest[:1], lowest[1:]
+
+
+def _fins(x: FloatArray, z: FloatArray, depth: float) -> NDArray[np.bool_]:
+    """Mark samples that hang below the bottom before and behind them: of a fin, or a drop keel."""
+    ahead = np.maximum.accumulate(z[::-1])[::-1]
+    behind = np.maximum.accumulate(z)
+    fin = z < np.minimum(ahead, behind) - _FIN * depth
+    if not fin.any():
+        return fin
+    # Its ends go up to the bottom as long as they are steep: the bottom itself is not.
+    steep = np.abs(np.diff(z)) > _STEEP * np.diff(x)
+    last = len(z) - 1
+    for i in range(1, last + 1):
+        fin[i] |= fin[i - 1] and steep[i - 1]
+    for i in range(last - 1, -1, -1):
+        fin[i] |= fin[i + 1] and steep[i]
+    dropped = float(np.abs(np.diff(z)).max()) > 0.5 * _FIN * depth
+    # A deep belly fills the stretch and drops nowhere at once.
+    return fin if dropped and fin.mean() < 0.5 else np.zeros(len(z), np.bool_)
+
+
+def _rise(x: FloatArray, z: FloatArray, length: float) -> float:
+    """Give the rise per length of a keel that is straight and not level."""
+    middle = float(x.mean())
+    off = x - middle
+    slope = float((off * z).sum() / max(float((off * off).sum()), 1e-300))
+    left = float(np.abs(z - z.mean() - slope * off).max())
+    rise = abs(slope) * length
+    straight = left <= _STRAIGHT * abs(slope) * float(np.ptp(x))
+    return slope if rise > _RAKE * length and straight else 0.0
+
+
+_BOW = 0.15
+"""A bulb and the stem behind it lie in this part of the length from forward."""
+
+_DROP = 3e-3
+"""The contour steps back by more than this part of the length above a bulb."""
+
+_SOON = 0.4
+"""Above a bulb it steps back within this part of the height above the waterline."""
+
+_STEM_SAMPLES = 60
+_EXACT = 1e-3
+"""A vertex of the waterline this part of the length near the contour's crossing is its end."""
+
+
+@attrs.frozen
+class StemPlace:
+    """Where the stem meets the waterline.
+
+    Attributes
+    ----------
+    x : float, m
+        In coordinates of the file.
+    note, doubt : str or None
+        What is to be told of it, or doubted.
+    """
+
+    x: float
+    note: str | None = None
+    doubt: str | None = None
+
+
+def find_stem(outline: HullOutline, z: float, level: Level) -> StemPlace:
+    """Find where the stem meets the waterline at a height, m."""
+    size, z = level.fore - level.aft, outline.inside(z)
+    crossing = outline.contour(z)
+    bow = crossing[crossing > level.fore - _BOW * size]
+    if not len(bow):
+        return StemPlace(level.fore)  # no contour forward: an open end, or half of two hulls
+    if len(bow) == 3:
+        x = _exact(outline, z, float(bow[0]), size)
+        what = f"the waterline passes a bulb at x = {bow[2]:.6g} m; the stem is behind it"
+        return StemPlace(x, f"{what}, at {x:.6g} m of the file")
+    x = float(bow[-1])
+    stepped = _step_above(outline, z, x, size)
+    if stepped is not None:
+        back, height = stepped
+        what = (
+            f"the design waterline ends on a bulb at x = {x:.6g} m of the file; the FP goes by the "
+            f"stem above it, at x = {back:.6g} m, z = {height:.6g} m: check draught="
+        )
+        return StemPlace(back, doubt=what)
+    return StemPlace(_exact(outline, z, x, size))
+
+
+def _exact(outline: HullOutline, z: float, x: float, size: float) -> float:
+    """Take the end of the waterline itself: the contour was cut a little beside y = 0."""
+    places = outline.cut(2, z)
+    near = places[np.abs(places[:, 0] - x) <= _EXACT * size]
+    if not len(near):
+        return x
+    least = np.abs(near[:, 1]).min()
+    on = near[np.abs(near[:, 1]) <= least + 1e-9 * size]
+    return float(on[int(np.abs(on[:, 0] - x).argmin()), 0])
+
+
+def _step_above(
+    outline: HullOutline, z: float, x: float, size: float
+) -> tuple[float, float] | None:
+    """Give place and height of the stem's foot where the waterline ends on a bulb below it."""
+    top = float(outline.high[2])
+    heights = np.linspace(z, top, _STEM_SAMPLES + 1)[1:-1]
+    # Only the bow: where sections end in the centre plane the contour has their keels too.
+    bow = x - _BOW * size
+    fore = np.array([_foremost(outline.contour(height), bow) for height in heights.tolist()])
+    known = np.isfinite(fore)
+    heights, fore = heights[known], fore[known]
+    if not len(fore):
+        return None
+    # The foot of the stem is the first place from which the contour goes back no further.
+    row = int(fore.argmin())
+    drop = x - float(fore[row])
+    if drop <= _DROP * size:
+        return None
+    soon = fore[heights <= z + _SOON * (top - z)]
+    early = len(soon) > 0 and x - float(soon.min()) > 0.8 * drop
+    rises = float(fore[row:].max()) - float(fore[row]) > _DROP * size
+    return (float(fore[row]), float(heights[row])) if early or rises else None
+
+
+def _foremost(crossing: FloatArray, least: float) -> float:
+    """Give the foremost crossing forward of `least` (m), nan where there is none."""
+    return float(crossing[-1]) if len(crossing) and crossing[-1] > least else float("nan")

@@ -34,9 +34,9 @@ from assoc_hull.geometry.polylines.operations import (
 )
 from assoc_hull.geometry.polylines.straight_runs import Onset
 from assoc_hull.geometry.splines.distance import closest_points, closest_points_each
-from assoc_hull.geometry.splines.evaluation import derivative, sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.geometry.splines.segments import derivative, sample
 from assoc_hull.io.lines.slices import AXES
 from assoc_hull.io.slicing.features import (
     FeatureRules,

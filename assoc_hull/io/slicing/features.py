@@ -30,8 +30,13 @@ from assoc_hull.geometry.polylines.noise import (
     forward_points,
     point_scatter,
 )
-from assoc_hull.geometry.polylines.operations import cumulative_lengths, distinct_points
-from assoc_hull.geometry.polylines.polygons import PolygonRule, filled_polygon, polygon_corners
+from assoc_hull.geometry.polylines.operations import (
+    PolygonRule,
+    cumulative_lengths,
+    distinct_points,
+    filled_polygon,
+    polygon_corners,
+)
 from assoc_hull.geometry.polylines.smoothing import local_scatter
 from assoc_hull.geometry.polylines.straight_runs import (
     Onset,

@@ -36,9 +36,9 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.net.surface_layout import BROAD_END, NEAR_END
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.polylines.operations import runs_where
-from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.geometry.splines.segments import derivative
 from assoc_hull.io.lines.raw_lines import plane_name
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.slicing.cut_planes import propose_places

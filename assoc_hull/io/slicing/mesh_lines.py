@@ -50,12 +50,11 @@ from assoc_hull.io.lines.slices import (
     SliceLine,
     settled_gaps,
 )
-from assoc_hull.io.mesh.frame import place_mesh, scale_mesh
+from assoc_hull.io.mesh.frame import levelled, place_mesh, scale_mesh
 from assoc_hull.io.mesh.one_hull import place_one_hull
 from assoc_hull.io.mesh.read import read_triangles
 from assoc_hull.io.mesh.repair import facet_depth, mend_mesh
 from assoc_hull.io.mesh.shell import MeshShell, RimKind, cut_shell, make_shell, rim_pieces
-from assoc_hull.io.mesh.tilt import levelled
 from assoc_hull.io.placing.frame import find_frame
 from assoc_hull.io.placing.options import FileAxes, FrameOptions
 from assoc_hull.io.placing.outline import outline_of_mesh

@@ -27,8 +27,8 @@ from assoc_hull.geometry.polylines.smoothing import (
     straight_polyline,
 )
 from assoc_hull.geometry.polylines.straight_runs import StraightRun
-from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.geometry.splines.segments import derivative
 from assoc_hull.io.lines.slices import AXES
 from assoc_hull.io.slicing.features import (
     FeatureRules,

@@ -35,7 +35,7 @@ from assoc_hull.geometry.patches.plane_intersection import intersect_plane
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.triangulation import Facets
 from assoc_hull.geometry.surfaces.triangles import check_mesh
-from assoc_hull.io.cad.hull_faces import FINE, HullFaces, facets_at_scale, hull_size
+from assoc_hull.io.cad.faces import FINE, HullFaces, facets_at_scale, hull_size
 from assoc_hull.io.digitised.rhino import rhino_shows, tell_left_out
 from assoc_hull.io.iges.curves import holds_surfaces
 from assoc_hull.io.iges.file import UNITS, IgesFile, looks_like_iges
@@ -49,11 +49,9 @@ from assoc_hull.io.lines.slices import (
     SliceLine,
     settled_gaps,
 )
-from assoc_hull.io.mesh.axis_change import AxisChange
-from assoc_hull.io.mesh.frame import place_mesh
+from assoc_hull.io.mesh.frame import AxisChange, place_mesh, refuse_tilt
 from assoc_hull.io.mesh.one_hull import place_one_hull
 from assoc_hull.io.mesh.repair import mend_mesh
-from assoc_hull.io.mesh.tilt import refuse_tilt
 from assoc_hull.io.placing.options import FrameOptions
 from assoc_hull.io.reports import Notebook, Tell, no_progress
 from assoc_hull.io.rhino.read import is_rhino, read_rhino

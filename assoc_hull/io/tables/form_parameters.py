@@ -17,8 +17,16 @@ from typing import Any
 
 import attrs
 
-from assoc_hull.analysis.form.catalogue import CATALOGUE, TABLES, TITLES, by_table
-from assoc_hull.analysis.form.form_parameters import FormReport, ReportPart, ReportRow, number_text
+from assoc_hull.analysis.form.form_parameters import (
+    CATALOGUE,
+    TABLES,
+    TITLES,
+    FormReport,
+    ReportPart,
+    ReportRow,
+    by_table,
+    number_text,
+)
 from assoc_hull.analysis.form.parameter import FormParameter
 from assoc_hull.arguments import all_of
 from assoc_hull.io.tables.json_schema import (
@@ -292,7 +300,7 @@ def catalogue_text(entries: Iterable[FormParameter]) -> str:
 
     Examples
     --------
-    >>> from assoc_hull.analysis.form.catalogue import CATALOGUE
+    >>> from assoc_hull.analysis.form.form_parameters import CATALOGUE
     >>> from assoc_hull.io.tables.form_parameters import catalogue_text
     >>> print(catalogue_text([CATALOGUE["Cb"]]))
     HYDROSTATIC VALUES

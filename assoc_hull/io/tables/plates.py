@@ -52,8 +52,8 @@ from assoc_hull.surface.plating.development import LABEL, Development
 from assoc_hull.surface.plating.plate import Plate
 from assoc_hull.surface.plating.plate_class import CAVEAT, KINDS
 from assoc_hull.surface.plating.surface_plates import COLUMNS, PlateTable
+from assoc_hull.surface.regions.level_lines import RegionAreas
 from assoc_hull.surface.regions.options import MODES
-from assoc_hull.surface.regions.region_parts import RegionAreas
 from assoc_hull.surface.regions.result import RegionResult
 
 __all__ = [

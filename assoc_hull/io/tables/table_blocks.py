@@ -17,13 +17,15 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.reports import Notebook
-from assoc_hull.io.tables.cell_numbers import cell_value, number_like, with_points
 from assoc_hull.io.tables.column_names import (
+    cell_value,
     column_name,
     is_corner_of_waterlines,
     is_unit,
+    number_like,
     station_label,
     unit_word,
+    with_points,
 )
 
 __all__ = [

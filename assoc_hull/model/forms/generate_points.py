@@ -28,8 +28,7 @@ from assoc_hull.model.forms.line_layout import (
     flat_points,
     joints_of,
 )
-from assoc_hull.model.forms.section_pieces import LineShape
-from assoc_hull.model.forms.sections import parts_at_draught, section_shape
+from assoc_hull.model.forms.sections import LineShape, parts_at_draught, section_shape
 from assoc_hull.model.tables import Ends
 
 __all__ = [

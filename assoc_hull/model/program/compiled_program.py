@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.numeric.compiled_roots import find_roots, safe_root
 from assoc_hull.geometry.numeric.jit import jit, was_loaded
-from assoc_hull.geometry.numeric.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
+from assoc_hull.geometry.numeric.polynomials import FLOOR, MOST_TRIALS, RELATIVE, STEPS
 from assoc_hull.geometry.numeric.tridiagonal import MOST_LEVELS
 from assoc_hull.geometry.splines.compiled_intersections import (
     meet_curves,

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import attrs
 
 from assoc_hull.geometry.splines.backend import backend
-from assoc_hull.graph.gate import Gate
+from assoc_hull.graph.derived import Gate
 from assoc_hull.model.program.run_program import NumpyProgram, RunProgram
 from assoc_hull.model.program.structure import Program
 from assoc_hull.model.tables import HullState

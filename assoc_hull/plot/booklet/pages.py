@@ -25,7 +25,7 @@ from assoc_hull.plot.booklet.parts import (
 from assoc_hull.plot.lines_plan.drawing import Drawing, drawing, pen_of
 from assoc_hull.plot.lines_plan.three_views import body_halves, extent
 from assoc_hull.plot.sheet.labels import wrap_words
-from assoc_hull.plot.sheet.paper import LINE, WATER
+from assoc_hull.plot.sheet.paper import LINE, WATER, View
 from assoc_hull.plot.sheet.pdf_outline import Bookmark
 from assoc_hull.plot.sheet.report_pages import (
     GREY,
@@ -38,7 +38,6 @@ from assoc_hull.plot.sheet.report_pages import (
     page_head,
 )
 from assoc_hull.plot.sheet.sheet_figure import Sheet, printable
-from assoc_hull.plot.sheet.view import View
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

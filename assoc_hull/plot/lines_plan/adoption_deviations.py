@@ -12,10 +12,19 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, PlotLine, drawing
 from assoc_hull.plot.lines_plan.three_views import body_halves, scale_of_body
 from assoc_hull.plot.sheet.labels import overlaps
-from assoc_hull.plot.sheet.paper import FAMILY_COLOURS, GRID, LINE, MARGIN, TINT, PaperName, Pen
+from assoc_hull.plot.sheet.paper import (
+    FAMILY_COLOURS,
+    GRID,
+    LINE,
+    MARGIN,
+    TINT,
+    PaperName,
+    Pen,
+    View,
+    scale_of,
+)
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import BLOCK, caption, frame, title_block
-from assoc_hull.plot.sheet.view import View, scale_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -18,11 +18,17 @@ from assoc_hull.arguments import choice
 from assoc_hull.edit.net_battens import net_battens
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.tables import HullState
-from assoc_hull.plot.lines_plan.drawing import CHORDS, Drawable, Drawing, PlotLine, tables_of
-from assoc_hull.plot.lines_plan.zoom_window import clipped
+from assoc_hull.plot.lines_plan.drawing import (
+    CHORDS,
+    Drawable,
+    Drawing,
+    PlotLine,
+    clipped,
+    tables_of,
+)
 from assoc_hull.plot.sheet.paper import LINE, Pen
 from assoc_hull.plot.sheet.sheet_figure import Sheet
 

@@ -16,12 +16,16 @@ import numpy as np
 from assoc_hull.arguments import instance, shown
 from assoc_hull.errors import WrongTypeError
 from assoc_hull.model.tables import HasState, HullState
-from assoc_hull.plot.lines_plan.before_after import LEAST, overlay, pairs_of
-from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, drawing
-from assoc_hull.plot.lines_plan.exaggerated_movement import ExaggeratedMovement, exaggerated
+from assoc_hull.plot.lines_plan.before_after import (
+    LEAST,
+    ExaggeratedMovement,
+    exaggerated,
+    overlay,
+    pairs_of,
+)
+from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, drawing, zoomed
 from assoc_hull.plot.lines_plan.plan import captions, window_rows
 from assoc_hull.plot.lines_plan.three_views import ViewLayout, Views, body_halves, lay_out_views
-from assoc_hull.plot.lines_plan.zoom_window import zoomed
 from assoc_hull.plot.sheet.labels import wrap_words
 from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen
 from assoc_hull.plot.sheet.report_pages import GREY, LEFT, RIGHT, PageFlow, page_foot, page_head

@@ -17,17 +17,15 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.fairness.combs import comb_teeth
 from assoc_hull.geometry.fairness.inflections import inflections
-from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.plot.lines_plan.batten_heat import HeatName, batten_heat
-from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, PlotLine, drawing
+from assoc_hull.plot.lines_plan.drawing import Drawable, Drawing, PlotLine, drawing, zoomed
 from assoc_hull.plot.lines_plan.plan import window_rows
 from assoc_hull.plot.lines_plan.three_views import Views, body_halves, body_sides, lay_out_views
-from assoc_hull.plot.lines_plan.zoom_window import zoomed
 from assoc_hull.plot.sheet.labels import label_row
-from assoc_hull.plot.sheet.paper import GRID, HEAVY, MARGIN, TINT, PaperName, Pen
+from assoc_hull.plot.sheet.paper import GRID, HEAVY, MARGIN, TINT, PaperName, Pen, View, scale_of
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import BLOCK, caption, frame, title_block
-from assoc_hull.plot.sheet.view import View, scale_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

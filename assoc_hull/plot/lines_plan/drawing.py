@@ -1,30 +1,46 @@
-"""What is drawn of a hull: its lines as polylines, and where they cross.
+"""What is drawn of a hull: lines as polylines, crossings, bodies, mouths of tunnels, a stretch.
 
 But for the graph of drivers, this is the one place here that reads the tables of a hull.
 Everything given out is frozen, so a drawing is also a snapshot: it stays as it is while the hull
 is edited. Lines that were handed in, before they became a net, make a drawing as well.
+
+Outlines of bodies beside the net on a lines plan: what of them stands to port.
+
+Mouths of tunnels on a lines plan: closed curves on the shell, and lines that end at them.
+
+A stretch of a hull along x, drawn larger: its lines cut off at two stations.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import pair
 from assoc_hull.edit.hull_normals import hull_normals
-from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import (
+    FloatArray,
+    IntArray,
+    SplineBatch,
+    freeze,
+)
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.attached_body import AttachedBody
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.kinds import FAMILIES, BoundaryKind
 from assoc_hull.model.line_source import LineSource, line_curve_data
 from assoc_hull.model.named_mapping import NamedMapping
-from assoc_hull.model.tables import HasState, HullState, Particulars, state_of
-from assoc_hull.plot.lines_plan.body_outlines import drawn_outlines
-from assoc_hull.plot.lines_plan.tunnel_mouths import PlotMouth, mouths_of
+from assoc_hull.model.tables import (
+    HasState,
+    HullState,
+    Particulars,
+    state_of,
+)
 from assoc_hull.plot.sheet.paper import HEAVY, LINE, TINT, Pen
 
 __all__ = [
@@ -33,13 +49,118 @@ __all__ = [
     "Drawing",
     "PlotCrossings",
     "PlotLine",
+    "PlotMouth",
+    "clipped",
     "drawing",
+    "drawn_outlines",
     "given_lines",
+    "mouths_of",
+    "outside_mouths",
     "particulars_of",
     "pen_of",
     "short_name",
     "tables_of",
+    "zoomed",
 ]
+
+
+def drawn_outlines(body: AttachedBody) -> Iterator[FloatArray]:
+    """Give the polylines (n, 3), m, of a body on the side that a plan shows.
+
+    A body that stands to starboard alone is drawn in its mirror image.
+    """
+    mirrored = bool((body.points[..., 1] <= 0.0).all())
+    for points in body.outlines.values():
+        yield from _to_port(points * [1.0, -1.0, 1.0] if mirrored else points)
+
+
+def _to_port(points: FloatArray) -> Iterator[FloatArray]:
+    """Give the pieces of a polyline (n, 3) with y not below 0."""
+    y = points[:, 1]
+    crossed = np.flatnonzero(y[:-1] * y[1:] < 0.0)
+    part = y[crossed] / (y[crossed] - y[crossed + 1])
+    cuts = points[crossed] + part[:, None] * (points[crossed + 1] - points[crossed])
+    cuts[:, 1] = 0.0
+    every = np.insert(points, crossed + 1, cuts, axis=0)
+    keep = np.concatenate([[False], 0.5 * (every[1:, 1] + every[:-1, 1]) >= 0.0, [False]])
+    begins, ends = np.flatnonzero(~keep[:-1] & keep[1:]), np.flatnonzero(keep[:-1] & ~keep[1:])
+    for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
+        yield every[begin : end + 1]
+
+
+@attrs.frozen(eq=False)
+class PlotMouth:
+    """The mouth of a tunnel to port.
+
+    Attributes
+    ----------
+    name : str
+        Of the tunnel.
+    x, z, radius : float, m
+        Of its axis, and of its inside.
+    points : (n, 3), m
+        Around the mouth; the last is the first.
+    """
+
+    name: str
+    x: float
+    z: float
+    radius: float
+    points: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.points)
+
+
+def mouths_of(state: HullState) -> tuple[PlotMouth, ...]:
+    """Take the mouths of the tunnels that a hull holds, as its shell is now."""
+    if not state.tunnels:
+        return ()
+    from assoc_hull.analysis.hydrostatics.tunnel import kept_tunnels
+
+    return tuple(
+        PlotMouth(
+            each.name, each.x, each.z, each.radius, np.concatenate([each.mouth, each.mouth[:1]])
+        )
+        for each in kept_tunnels(state)
+    )
+
+
+def outside_mouths(points: FloatArray, mouths: Sequence[PlotMouth]) -> Iterator[FloatArray]:
+    """Give the pieces of a polyline on the shell, (n, 3), m, that lie in no mouth."""
+    pieces = [points]
+    for mouth in mouths:
+        pieces = [part for each in pieces for part in _outside(each, mouth)]
+    yield from pieces
+
+
+def _outside(points: FloatArray, mouth: PlotMouth) -> Iterator[FloatArray]:
+    """Give what of a polyline lies outside one cylinder."""
+    from_axis = points[:, [0, 2]] - [mouth.x, mouth.z]
+    way = np.diff(from_axis, axis=0)
+    # On a chord from_axis + t way the distance from the axis is the radius at roots of a square.
+    square, half = (way * way).sum(axis=1), (from_axis[:-1] * way).sum(axis=1)
+    rest = (from_axis[:-1] ** 2).sum(axis=1) - mouth.radius**2
+    under = half * half - square * rest
+    met = np.flatnonzero((under > 0.0) & (square > 0.0))
+    if not len(met):
+        if not len(rest) or rest[0] >= 0.0:
+            yield points
+        return
+    root = np.sqrt(under[met])
+    part = np.stack([-half[met] - root, -half[met] + root]) / square[met]
+    inside = (part > 0.0) & (part < 1.0)
+    cuts = (met + part)[inside]
+    place = np.unique(np.concatenate([np.arange(len(points), dtype=np.float64), cuts]))
+    every = np.column_stack(
+        [np.interp(place, np.arange(len(points)), points[:, axis]) for axis in range(3)]
+    )
+    middle = 0.5 * (every[1:] + every[:-1])[:, [0, 2]] - [mouth.x, mouth.z]
+    keep = np.concatenate([[False], (middle * middle).sum(axis=1) >= mouth.radius**2, [False]])
+    begins, ends = np.flatnonzero(~keep[:-1] & keep[1:]), np.flatnonzero(keep[:-1] & ~keep[1:])
+    for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
+        yield every[begin : end + 1]
+
 
 _BOUNDARY = {
     BoundaryKind.END: HEAVY,
@@ -329,3 +450,67 @@ def _given_drawn(pieces: Sequence[LineSource]) -> PlotLine:
         float("nan") if first.normal is None else first.offset,
         splines, tuple(sample(spline, CHORDS)[1] for spline in splines),
     )  # fmt: skip
+
+
+def zoomed(plan: Drawing, x: tuple[float, float] | None) -> Drawing:
+    """Give a drawing of what lies between two x, m; all of it where x is None.
+
+    Raises
+    ------
+    BadInputError
+        The two are no span, or no line lies there.
+    """
+    if x is None:
+        return plan
+    low, high = pair(x, "x", "in a picture", positive=False)
+    lines = tuple(line for line in (_cut(each, low, high) for each in plan.lines) if line.polylines)
+    if not any(line.boundary is None for line in lines):
+        aft, fore = plan.bounds[:, 0]
+        raise BadInputError(
+            f"no line lies between x = {low:g} and {high:g} m", "in a picture",
+            f"name a stretch of the hull, which lies between {aft:.2f} and {fore:.2f} m",
+        )  # fmt: skip
+    every = plan.crossings
+    inside = np.flatnonzero((every.xyz[:, 0] >= low) & (every.xyz[:, 0] <= high))
+    some = PlotCrossings(
+        tuple(every.key[i] for i in inside.tolist()),
+        tuple(every.line[i] for i in inside.tolist()),
+        every.xyz[inside],
+        every.normal[inside],
+    )
+    return attrs.evolve(plan, lines=lines, crossings=some, window=(low, high))
+
+
+def _cut(line: PlotLine, low: float, high: float) -> PlotLine:
+    """Give what of a line lies between two x; its splines stay whole, one for each piece."""
+    found = [
+        (spline, piece)
+        for spline, points in zip(line.splines, line.polylines, strict=True)
+        for piece, _ in clipped(points, low, high)
+    ]
+    splines, pieces = tuple(each[0] for each in found), tuple(each[1] for each in found)
+    return attrs.evolve(line, splines=splines, polylines=pieces)
+
+
+def clipped(points: FloatArray, low: float, high: float) -> Iterator[tuple[FloatArray, IntArray]]:
+    """Give the pieces of a polyline (n, 3) between two x, and for each chord the one it lies on."""
+    x = points[:, 0]
+    rise = np.diff(x)
+    cuts = [np.arange(len(points), dtype=np.float64)]
+    for edge in (each for each in (low, high) if np.isfinite(each)):
+        part = (edge - x[:-1]) / np.where(rise == 0.0, np.inf, rise)
+        inner = np.flatnonzero((part > 0.0) & (part < 1.0))
+        cuts.append(inner + part[inner])
+    place = np.unique(np.concatenate(cuts))
+    every = np.column_stack(
+        [np.interp(place, np.arange(len(points)), points[:, axis]) for axis in range(3)]
+    )
+    middle = 0.5 * (every[1:, 0] + every[:-1, 0])
+    inside = np.concatenate([[False], (middle >= low) & (middle <= high), [False]])
+    begins, ends = (
+        np.flatnonzero(~inside[:-1] & inside[1:]),
+        np.flatnonzero(inside[:-1] & ~inside[1:]),
+    )
+    for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
+        chord = np.floor(0.5 * (place[begin:end] + place[begin + 1 : end + 1])).astype(np.int64)
+        yield every[begin : end + 1], chord

@@ -14,15 +14,18 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.lines_plan.batten_heat import BattenHeat
-from assoc_hull.plot.lines_plan.body_outlines import drawn_outlines
-from assoc_hull.plot.lines_plan.drawing import Drawing, PlotLine, pen_of
-from assoc_hull.plot.lines_plan.tunnel_mouths import outside_mouths
-from assoc_hull.plot.lines_plan.zoom_window import clipped
+from assoc_hull.plot.lines_plan.drawing import (
+    Drawing,
+    PlotLine,
+    clipped,
+    drawn_outlines,
+    outside_mouths,
+    pen_of,
+)
 from assoc_hull.plot.sheet.labels import LabelledLine, Side, label_above, label_lines, label_row
-from assoc_hull.plot.sheet.paper import AXIS, GRID, HEAVY, MARGIN, WATER, Paper, Pen
+from assoc_hull.plot.sheet.paper import AXIS, GRID, HEAVY, MARGIN, WATER, Paper, Pen, View, scale_of
 from assoc_hull.plot.sheet.sheet_figure import Sheet
 from assoc_hull.plot.sheet.title_block import BLOCK
-from assoc_hull.plot.sheet.view import View, scale_of
 
 __all__ = [
     "Grid",

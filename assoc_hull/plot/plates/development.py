@@ -14,10 +14,9 @@ from assoc_hull.plot.plates.paint_tiles import fill_outline
 from assoc_hull.plot.plates.plate_layout import SheetArea
 from assoc_hull.plot.plates.plate_picture import area_words
 from assoc_hull.plot.sheet.labels import wrap_words
-from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen
+from assoc_hull.plot.sheet.paper import MARGIN, PaperName, Pen, View, scale_of
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import frame, scale_bar, title_block
-from assoc_hull.plot.sheet.view import View, scale_of
 from assoc_hull.surface.plating.development import LABEL, Development
 
 if TYPE_CHECKING:

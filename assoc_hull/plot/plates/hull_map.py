@@ -17,21 +17,21 @@ from numpy.typing import NDArray
 from assoc_hull.arguments import instance, text
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.write_file import form_by_ending, write_whole
-from assoc_hull.plot.plates.hull_tiles import HullTiles, hull_tiles
 from assoc_hull.plot.plates.paint_tiles import (
     CONTESTED,
     MARGIN_TINT,
     SIGNS,
     TINTS,
+    HullTiles,
     hatch_in_view,
+    hull_tiles,
     paint_in_view,
     segments_in_view,
 )
 from assoc_hull.plot.sheet.labels import wrap_words
-from assoc_hull.plot.sheet.paper import LINE, MARGIN, PaperName, Pen
+from assoc_hull.plot.sheet.paper import LINE, MARGIN, PaperName, Pen, View, scale_of
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, pdf_of, save
 from assoc_hull.plot.sheet.title_block import caption, frame, scale_bar, title_block
-from assoc_hull.plot.sheet.view import View, scale_of
 from assoc_hull.surface.plating.hull_plates import COLUMNS, HullPlateTable
 from assoc_hull.surface.plating.hull_seams import AXES
 from assoc_hull.surface.plating.plate_class import CAVEAT

@@ -13,8 +13,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.plot.plates.hull_tiles import HullTiles, hull_tiles
-from assoc_hull.plot.plates.paint_tiles import paint_quads
+from assoc_hull.plot.plates.paint_tiles import HullTiles, hull_tiles, paint_quads
 from assoc_hull.plot.sheet.paper import MARGIN, POINT, PaperName, Pen
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import caption, frame

@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.panels.mesh_quality import PanelReport, panel_report
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
-from assoc_hull.plot.sheet.paper import AXIS, MARGIN, POINT, WATER, PaperName
+from assoc_hull.plot.sheet.paper import AXIS, MARGIN, POINT, WATER, PaperName, View, scale_of
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import caption, frame, scale_bar, title_block
-from assoc_hull.plot.sheet.view import View, scale_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

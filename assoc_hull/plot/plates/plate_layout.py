@@ -13,7 +13,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.plot.plates.plate_picture import PlateShape
-from assoc_hull.plot.sheet.view import scale_of
+from assoc_hull.plot.sheet.paper import scale_of
 
 __all__ = [
     "PlateCell",

@@ -23,10 +23,9 @@ from assoc_hull.plot.plates.plate_layout import (
 )
 from assoc_hull.plot.plates.plate_picture import PlateEntry, PlateScene
 from assoc_hull.plot.sheet.labels import LabelledLine, label_lines, wrap_words
-from assoc_hull.plot.sheet.paper import MARGIN, Pen
+from assoc_hull.plot.sheet.paper import MARGIN, Pen, View
 from assoc_hull.plot.sheet.sheet_figure import Sheet
 from assoc_hull.plot.sheet.title_block import scale_bar
-from assoc_hull.plot.sheet.view import View
 
 __all__ = ["VIEWS", "PlateLook", "draw_plates", "field_beside", "regions", "views_of"]
 

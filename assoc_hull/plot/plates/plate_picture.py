@@ -23,8 +23,7 @@ from assoc_hull.geometry.patches.cells import CellKind, SignCells
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.plating.plate import Plate
 from assoc_hull.surface.plating.surface_plates import PlateTable
-from assoc_hull.surface.regions.level_lines import LevelLine
-from assoc_hull.surface.regions.region_parts import RegionAreas
+from assoc_hull.surface.regions.level_lines import LevelLine, RegionAreas
 from assoc_hull.surface.regions.result import RegionResult
 
 __all__ = [

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from assoc_hull.plot.sheet.paper import FRAME, LINE
+from assoc_hull.plot.sheet.paper import FRAME, LINE, View
 from assoc_hull.plot.sheet.sheet_figure import Sheet
-from assoc_hull.plot.sheet.view import View
 
 if TYPE_CHECKING:
     from matplotlib.text import Text

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.net.curve_net import CurveNet
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.fitting.fit_input import Samples
-from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.surface.blocks.block_map import GRID, BlockMap, LaidQuad, block_map
 from assoc_hull.surface.blocks.block_plan import block_plans
 from assoc_hull.surface.blocks.cell_regions import BRIDGE, SIDES

@@ -26,12 +26,16 @@ from assoc_hull.surface.blocks.cell_regions import (
     border_turns,
     find_inward_bends,
 )
-from assoc_hull.surface.blocks.end_cuts import LEAST, EndCut, add_bridges, end_cut, passes_bend
-from assoc_hull.surface.blocks.knuckle_cuts import (
+from assoc_hull.surface.blocks.end_cuts import (
+    LEAST,
+    EndCut,
     KnuckleCut,
     KnuckleLayer,
+    add_bridges,
+    end_cut,
     knuckle_cuts,
     layers_between,
+    passes_bend,
     require_disc,
 )
 from assoc_hull.surface.cells.net_faces import NetCells

@@ -19,7 +19,7 @@ from assoc_hull.geometry.fitting.folds import SurfaceElements
 from assoc_hull.geometry.fitting.foot_points import foot_points
 from assoc_hull.geometry.patches.knots import span_limits
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.surface.blocks.fit_options import FitOptions
 
 __all__ = [

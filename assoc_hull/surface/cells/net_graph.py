@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.net.curve_net import CurveNet
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.vectors import dot
-from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.surface.cells.net_nodes import RANK, Stops, find_stops, merge_stops
 
 __all__ = [

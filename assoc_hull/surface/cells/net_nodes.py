@@ -16,8 +16,8 @@ from assoc_hull.analysis.net.curve_net import CurveNet
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.geometry.splines.distance import closest_points_each
-from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from assoc_hull.geometry.splines.segments import evaluate
 
 __all__ = [
     "RANK",

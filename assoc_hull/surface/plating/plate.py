@@ -21,8 +21,8 @@ from assoc_hull.surface.plating.development import Development, development
 from assoc_hull.surface.plating.options import PlateOptions
 from assoc_hull.surface.plating.plate_class import PlateShares, shares_of, suggestion_key
 from assoc_hull.surface.plating.roll_axis import COHERENT, Rulings, roll_axis, rulings
+from assoc_hull.surface.regions.level_lines import RegionAreas
 from assoc_hull.surface.regions.options import ZeroBand
-from assoc_hull.surface.regions.region_parts import RegionAreas
 from assoc_hull.surface.regions.result import RegionResult
 
 __all__ = [

@@ -26,7 +26,7 @@ from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_f
 from assoc_hull.geometry.patches.zero_set_arcs import arcs_of
 from assoc_hull.surface.plating.hull_seams import AXES, PlateRange
 from assoc_hull.surface.plating.hull_shell import HullShell
-from assoc_hull.surface.regions.region_parts import LevelSolution
+from assoc_hull.surface.regions.level_lines import LevelSolution
 
 __all__ = [
     "TOL",

@@ -19,7 +19,7 @@ from assoc_hull.errors import WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.numeric.quadrature import lobatto
 from assoc_hull.surface.plating.curvature_nodes import CurvatureNodes
-from assoc_hull.surface.regions.region_parts import RegionAreas
+from assoc_hull.surface.regions.level_lines import RegionAreas
 
 __all__ = [
     "CAVEAT",

@@ -32,7 +32,15 @@ from assoc_hull.geometry.patches.cells import CellKind, select_patches
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_functions
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.zero_set_arcs import arcs_of
-from assoc_hull.surface.regions.level_lines import LevelLine, level_lines_of
+from assoc_hull.surface.regions.level_lines import (
+    AREAS,
+    ArcPoints,
+    LevelLine,
+    LevelSolution,
+    RegionAreas,
+    RegionPart,
+    level_lines_of,
+)
 from assoc_hull.surface.regions.options import (
     BREADTH,
     STRAIN_TOL,
@@ -40,13 +48,6 @@ from assoc_hull.surface.regions.options import (
     ZeroBand,
     region_options,
     zero_band,
-)
-from assoc_hull.surface.regions.region_parts import (
-    AREAS,
-    ArcPoints,
-    LevelSolution,
-    RegionAreas,
-    RegionPart,
 )
 from assoc_hull.surface.regions.result import RegionResult
 from assoc_hull.surface.regions.surface_batches import (

@@ -34,9 +34,8 @@ from assoc_hull.geometry.patches.outlines import (
 )
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.zero_set_arcs import sample_arcs
-from assoc_hull.surface.regions.level_lines import LevelLine
+from assoc_hull.surface.regions.level_lines import LevelLine, RegionAreas, RegionPart
 from assoc_hull.surface.regions.options import RegionOptions, ZeroBand
-from assoc_hull.surface.regions.region_parts import RegionAreas, RegionPart
 
 __all__ = [
     "REGIONS",

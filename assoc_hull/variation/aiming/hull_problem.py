@@ -13,10 +13,9 @@ from functools import cached_property
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.derivatives.given_motion import Moves
-from assoc_hull.analysis.derivatives.parameters import Rates
+from assoc_hull.analysis.derivatives.parameters import Moves, Rates
+from assoc_hull.edit.carried_net import Nudge, nudge
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.nudge import Nudge, nudge
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze

@@ -1,4 +1,4 @@
-"""Newton's way to targets: steps with exact derivatives, halved where they do not serve.
+"""Newton's way to targets: steps, second derivatives learnt on the way, and when it is done.
 
 With scaled changes mu, scaled misses r and their derivatives J, a step p keeps within the bounds
 and solves J p = -r. Of several such steps it is the one that makes
@@ -6,9 +6,20 @@ and solves J p = -r. Of several such steps it is the one that makes
     1/2 |mu + p|^2 + 1/2 p (sum_i lambda_i B_i) p
 
 least: the step of Newton's method for the least change that reaches the targets, with lambda the
-multipliers of the equations and B_i the second derivatives of r_i as far as they are known
-(`broyden_update`). With nothing known it is mu <- J' (J J')^-1 (J mu - r). Where no step solves the
+multipliers of the equations and B_i the second derivatives of r_i as far as they are known. With nothing known it is mu <- J' (J J')^-1 (J mu - r). Where no step solves the
 equations it is the one that makes |r|^2 least, to the same order.
+
+Second derivatives of misses, learnt from the exact first ones on the way.
+
+Each miss has a symmetric matrix B_i that follows the change y_i of its gradient over a step s by
+the least change of itself (Powell 1970, "A new algorithm for unconstrained optimization": the
+symmetric form of Broyden's rule),
+
+    B_i <- B_i + (e s' + s e') / s's - (e's) s s' / (s's)^2        e = y_i - B_i s
+
+What holds a change where it is: the conditions of Karush, Kuhn and Tucker.
+
+When aiming is done.
 """
 
 from __future__ import annotations
@@ -20,13 +31,134 @@ import numpy as np
 
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.aiming.broyden_update import no_curvature, updated_curvature
-from assoc_hull.variation.aiming.kkt_conditions import multipliers, release_slope, unbalanced
 from assoc_hull.variation.aiming.quadratic_program import Quadratic, least_squares_step, split
 from assoc_hull.variation.aiming.scaled_problem import Iterate
-from assoc_hull.variation.aiming.stopping_rule import StoppingRule
 
-__all__ = ["AimStep", "End", "NewtonIteration", "iterate"]
+__all__ = [
+    "AimStep",
+    "End",
+    "NewtonIteration",
+    "StoppingRule",
+    "iterate",
+    "multipliers",
+    "no_curvature",
+    "release_slope",
+    "unbalanced",
+    "updated_curvature",
+]
+
+_SHORT = 1e-7
+"""A shorter scaled step tells nothing: the change of gradients is rounding."""
+
+
+def no_curvature(targets: int, free: int) -> FloatArray:
+    """Give what is known before a step, (m, k, k)."""
+    return np.zeros((targets, free, free))
+
+
+def updated_curvature(curvature: FloatArray, step: FloatArray, change: FloatArray) -> FloatArray:
+    """Give the matrices after a step.
+
+    Parameters
+    ----------
+    curvature : (m, k, k) float
+        Before.
+    step : (k,) float
+        Scaled changes.
+    change : (m, k) float
+        Of the gradients of the misses.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.variation.aiming.newton_iteration import no_curvature, updated_curvature
+    >>> step = np.array([0.5, 0.0])
+    >>> updated_curvature(no_curvature(1, 2), step, np.array([[1.0, 0.25]])).tolist()
+    [[[2.0, 0.5], [0.5, 0.0]]]
+    """
+    square = float(step @ step)
+    if square < _SHORT**2:
+        return curvature
+    error = change - curvature @ step
+    half = error[:, :, None] * step / square
+    along = (error @ step / square**2)[:, None, None]
+    found: FloatArray = curvature + half + half.transpose(0, 2, 1) - along * np.outer(step, step)
+    return found
+
+
+def unbalanced(place: Iterate) -> float:
+    """Tell by how much a change is not the least one with these misses.
+
+    It is the size of what is left of mu beside the gradients of misses and of bounds that hold it:
+    the residual of the conditions of Karush, Kuhn and Tucker.
+    """
+    _, null = split(place.jacobian)
+    return float(np.linalg.norm(null.T @ _pull(place)))
+
+
+def release_slope(place: Iterate) -> float:
+    """Give the slope of half the squared misses along which bounds let go."""
+    slope = place.jacobian.T @ place.misses
+    return float(np.linalg.norm(np.where(place.shut, 0.0, slope)))
+
+
+def _pull(place: Iterate) -> FloatArray:
+    """Give mu without what bounds take up of it best: they push inward only, (k,)."""
+    from scipy.optimize import nnls
+
+    _, null = split(place.jacobian)
+    unit = np.eye(len(place.changes))
+    walls = np.concatenate([unit[place.at_high], -unit[place.at_low]])
+    if not len(walls) or not null.shape[1]:
+        return place.changes
+    forces, _ = nnls(null.T @ walls.T, -(null.T @ place.changes))
+    found: FloatArray = place.changes + forces @ walls
+    return found
+
+
+def multipliers(place: Iterate) -> FloatArray:
+    """Give the multipliers of the equations that balance mu best, (m,)."""
+    inverse, _ = split(place.jacobian)
+    found: FloatArray = -inverse.T @ _pull(place)
+    return found
+
+
+_SPARE = 0.1
+"""Rules are kept with this part of what they allow, unless rounding is in the way."""
+
+
+@attrs.frozen
+class StoppingRule:
+    """When a walk ends.
+
+    Attributes
+    ----------
+    residual : float
+        Targets are met where no scaled miss is larger.
+    kkt : float
+        The change is the least where it is out of balance by no more, times itself where
+        that is below 1.
+    steps : int
+        So many at most.
+    least : bool
+        Whether the change is to be the least; else steps are as short as they can be.
+    """
+
+    residual: float = 1e-10
+    kkt: float = 1e-6
+    steps: int = 40
+    least: bool = True
+
+    def met(self, place: Iterate) -> bool:
+        """Tell whether targets are met."""
+        return place.worst <= self.residual
+
+    def left(self, place: Iterate) -> tuple[bool, bool]:
+        """Tell what is left to do: targets, which are met with something to spare; the change."""
+        limit = max(self.kkt * min(1.0, place.change), _SPARE * self.kkt)
+        far = place.worst > _SPARE * self.residual
+        return far, self.least and (far or unbalanced(place) > limit)
+
 
 # --------------------------------------------------------------------------------------
 # One step: which way it goes, and how much of it is taken.

@@ -23,8 +23,8 @@ from assoc_hull.analysis.derivatives.hydrostatic_derivatives import (
 )
 from assoc_hull.analysis.derivatives.parameters import Parameter, Position
 from assoc_hull.analysis.derivatives.reused_layout import flotation_with_layout_of
-from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.floating_shape import FloatingShape
+from assoc_hull.analysis.form.form_parameters import CATALOGUE
 from assoc_hull.analysis.form.form_rates import form_rates
 from assoc_hull.analysis.form.longitudinal_parts import ship_slices
 from assoc_hull.analysis.form.parameter import evaluate
@@ -39,7 +39,7 @@ from assoc_hull.analysis.resistance.hull_resistance import (
 from assoc_hull.arguments import all_of, number, shown, shown_name
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.floating.slices import area_with_tangents
+from assoc_hull.geometry.floating.sections import area_with_tangents
 from assoc_hull.model.tables import HullState, Particulars
 
 __all__ = [

@@ -8,9 +8,8 @@ import numpy as np
 from assoc_hull.display import ShownAsText
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.variation.aiming.newton_iteration import AimStep, NewtonIteration
-from assoc_hull.variation.aiming.problem import Evaluated
 from assoc_hull.variation.aiming.quadratic_program import RANK
-from assoc_hull.variation.aiming.scaled_problem import Iterate
+from assoc_hull.variation.aiming.scaled_problem import Evaluated, Iterate
 
 __all__ = ["AimReport", "make_report"]
 

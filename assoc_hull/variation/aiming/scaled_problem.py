@@ -1,17 +1,63 @@
-"""The problem of aiming in scaled numbers: changes in usual changes, misses in sizes of outputs."""
+"""What aiming asks of a problem, and the same in scaled numbers.
+
+What aiming asks of a problem: outputs of a hull at given amplitudes, and their derivatives.
+"""
 
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Protocol
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.aiming.problem import Evaluated, Problem
 
-__all__ = ["Iterate", "ScaledProblem"]
+__all__ = ["Evaluated", "Iterate", "Problem", "ScaledProblem"]
+
+
+class Evaluated(Protocol):
+    """A certified hull at some amplitudes."""
+
+    @property
+    def values(self) -> FloatArray:
+        """Outputs in their own units, (m,)."""
+        ...
+
+    @property
+    def jacobian(self) -> FloatArray:
+        """Derivatives of outputs by amplitudes, (m, k); may be computed when first asked for."""
+        ...
+
+
+class Problem(Protocol):
+    """Outputs of a hull as functions of amplitudes of its free parameters.
+
+    An amplitude is the change of a named parameter from its present value, in m or degrees, or
+    the factor on a layer as it was given.
+    """
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """Names of the k free parameters."""
+        ...
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """Names of the m outputs that are aimed at."""
+        ...
+
+    def at(self, amplitudes: FloatArray) -> Evaluated:
+        """Give the hull at amplitudes, (k,).
+
+        Raises
+        ------
+        AssocHullError
+            There is no certified hull there.
+        """
+        ...
+
 
 _AT = 1e-12
 """A change so near to a bound (times 1 + |bound|) lies at it."""

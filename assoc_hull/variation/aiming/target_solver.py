@@ -17,12 +17,10 @@ from assoc_hull.errors import (
     UnreachableError,
 )
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.aiming.newton_iteration import NewtonIteration, iterate
-from assoc_hull.variation.aiming.problem import Problem
+from assoc_hull.variation.aiming.newton_iteration import NewtonIteration, StoppingRule, iterate
 from assoc_hull.variation.aiming.quadratic_program import RANK
 from assoc_hull.variation.aiming.report import AimReport, make_report
-from assoc_hull.variation.aiming.scaled_problem import ScaledProblem
-from assoc_hull.variation.aiming.stopping_rule import StoppingRule
+from assoc_hull.variation.aiming.scaled_problem import Problem, ScaledProblem
 
 __all__ = ["solve_targets"]
 

@@ -19,8 +19,7 @@ from assoc_hull.edit.mapped_planes import PlaneSamples, planar_lines
 from assoc_hull.errors import AssocHullError, BadInputError, FoldError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.tables import HullState
-from assoc_hull.variation.certificate.admissible_amplitudes import admissible_amplitudes
-from assoc_hull.variation.certificate.fold_check import Certificate, certify
+from assoc_hull.variation.certificate.fold_check import Certificate, admissible_amplitudes, certify
 from assoc_hull.variation.comparing.line_fairness import ImagedLines
 from assoc_hull.variation.features.redrawn_features import HullFeatures, redraw_features
 from assoc_hull.variation.fields.space_map import VariationMap

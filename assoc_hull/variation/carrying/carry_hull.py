@@ -14,10 +14,10 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.arguments import GivenObjects
+from assoc_hull.edit.carried_net import Nudge, nudge
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.nudge import Nudge, nudge
 from assoc_hull.edit.recut.transform import transform
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.tables import HullState, Particulars

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
+from assoc_hull.edit.carried_net import Nudge
 from assoc_hull.edit.document import end_if_stopped
-from assoc_hull.edit.nudge import Nudge
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError

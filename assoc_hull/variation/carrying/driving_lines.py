@@ -16,7 +16,7 @@ from assoc_hull.edit.mapped_planes import IN_PLANE, mostly_in_one_plane
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.kinds import FAMILIES
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.fields.field import StackedField

@@ -9,9 +9,8 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.arguments import GivenObjects
-from assoc_hull.edit.mapped_features import carry_features
 from assoc_hull.edit.mapped_planes import TransformedPlanes, carry_planes
-from assoc_hull.edit.space_map import SpaceMap
+from assoc_hull.edit.space_map import SpaceMap, carry_features
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.features import Feature
 from assoc_hull.model.tables import HullState, Particulars

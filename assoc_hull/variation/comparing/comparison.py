@@ -26,15 +26,13 @@ from assoc_hull.model.tables import HasState, HullState, Particulars, state_of
 from assoc_hull.variation.comparing.line_comparison import LineComparison, LineShift, compare_lines
 from assoc_hull.variation.comparing.line_fairness import FairnessComparison, LineFairness
 from assoc_hull.variation.comparing.number_comparison import (
-    NumberComparison,
-    compare_numbers,
-    numbers_of,
-)
-from assoc_hull.variation.comparing.object_comparison import (
     FeatureComparison,
+    NumberComparison,
     PointsComparison,
     compare_features,
+    compare_numbers,
     compare_points,
+    numbers_of,
 )
 
 __all__ = [

@@ -34,8 +34,8 @@ from assoc_hull.geometry.fairness.combs import (
     sampled_curvatures,
 )
 from assoc_hull.geometry.splines.arc_length import arc_length
-from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.tables import HullState
 
 __all__ = [

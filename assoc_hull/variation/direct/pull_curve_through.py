@@ -27,7 +27,7 @@ from assoc_hull.geometry.splines.loft_tangents import loft_tangents
 from assoc_hull.geometry.splines.segments import locate_parameters, power_coefficients
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import free_axes
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.objects import Curve, Point
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.direct.least_change import least_change

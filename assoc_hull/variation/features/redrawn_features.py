@@ -14,10 +14,9 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
-from assoc_hull.edit.crossings.tangencies import PlaneTangency
-from assoc_hull.edit.mapped_features import CarriedFeatures
+from assoc_hull.edit.crossings.adopted_points import PlaneTangency
 from assoc_hull.edit.recut.carried_points import TransformationState
-from assoc_hull.edit.space_map import SpaceMap
+from assoc_hull.edit.space_map import CarriedFeatures, SpaceMap
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.model.feature_geometry import host_curve
 from assoc_hull.model.features import Feature

@@ -17,9 +17,8 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import choice, number, places
 from assoc_hull.edit.recut.driver_image import ImageIntersections
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.numeric.roots import false_position
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate
-from assoc_hull.geometry.splines.segments import segment_curve, segment_start
+from assoc_hull.geometry.numeric.polynomials import false_position
+from assoc_hull.geometry.splines.segments import derivative, evaluate, segment_curve, segment_start
 from assoc_hull.variation.fields.field import AffinePiece, Axis, FieldRegion, StackedField, Tube
 from assoc_hull.variation.fields.layers import CornerLayer, DeadriseLayer, FieldLayer, Layer, Rake
 from assoc_hull.variation.fields.space_map import VariationMap, solve_coordinates

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import places
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.numeric.roots import false_position
+from assoc_hull.geometry.numeric.polynomials import false_position
 from assoc_hull.variation.fields.field import FieldRegion
 from assoc_hull.variation.fields.layers import (
     AdditiveLayer,

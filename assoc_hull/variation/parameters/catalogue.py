@@ -14,12 +14,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.fields.layers import Layer, scaled_layer
-from assoc_hull.variation.parameters import (
-    bulb_fields,
-    frame_fields,
-    parameter_fields,
-    waterline_fields,
-)
+from assoc_hull.variation.parameters import bulb_fields, parameter_fields
 from assoc_hull.variation.parameters.field_layout import Layout, Share
 from assoc_hull.variation.parameters.parent import Parent
 
@@ -260,7 +255,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "z_f",
             "m",
             "height of the centre of area of the section at .925 Lpp up to T: low of U, high of V",
-            frame_fields.fore_frame_height_field,
+            bulb_fields.fore_frame_height_field,
             "ratios of y below and above, each area kept, from the parallel body to FP",
         ),
         entry(
@@ -268,7 +263,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "z_a",
             "m",
             "height of the centre of area of the section at .1 Lpp up to T: low of U, high of V",
-            frame_fields.aft_frame_height_field,
+            bulb_fields.aft_frame_height_field,
             "ratios of y below and above, each area kept, from AP to the parallel body",
         ),
         entry(
@@ -276,7 +271,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "i_E",
             "deg",
             "half angle of entrance, by the chord of the design waterline over its first .05 Lpp",
-            waterline_fields.entrance_field,
+            bulb_fields.entrance_field,
             "ratio of y about T, toward the stem",
         ),
         entry(
@@ -284,7 +279,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "i_R",
             "deg",
             "half angle of run, by the chord of the design waterline over its last .05 Lpp",
-            waterline_fields.run_field,
+            bulb_fields.run_field,
             "ratio of y about T, nothing at the after end of the waterline",
         ),
         entry(
@@ -292,7 +287,7 @@ def _entries() -> tuple[NamedParameter, ...]:
             "C_WL",
             "-",
             "area of the design waterline by Lpp and breadth",
-            waterline_fields.waterline_fullness_field,
+            bulb_fields.waterline_fullness_field,
             "ratio of y about T, nothing at the ends and along the parallel body",
         ),
         entry(

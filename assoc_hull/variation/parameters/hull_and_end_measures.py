@@ -16,9 +16,9 @@ import numpy as np
 from assoc_hull.analysis.form.profile import LEAST_BULB, boss_curve, tips, transom_curves
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.numeric.circle_fit import CircleFit, fit_circle
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate, sample
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import coordinate_turns, points_at_coordinate
+from assoc_hull.geometry.splines.segments import derivative, evaluate, sample
 from assoc_hull.variation.parameters.measurement import (
     GAUSS,
     DrawnCurves,

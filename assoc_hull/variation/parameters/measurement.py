@@ -21,12 +21,12 @@ from assoc_hull.arguments import plain
 from assoc_hull.errors import AbsentParameterError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.polylines.flats import fit_plane
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.geometry.splines.plane_intersections import (
     PointsOnCurves,
     coordinate_turns,
     points_at_coordinate,
 )
+from assoc_hull.geometry.splines.segments import derivative, evaluate
 from assoc_hull.model.named_mapping import NamedMapping
 from assoc_hull.model.tables import HullState, Particulars
 

@@ -17,8 +17,8 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.numeric.circle_fit import CircleFit, fit_circle
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate, sample
 from assoc_hull.geometry.splines.plane_intersections import points_at_coordinate, points_on_plane
+from assoc_hull.geometry.splines.segments import derivative, evaluate, sample
 from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter
 
 __all__ = [

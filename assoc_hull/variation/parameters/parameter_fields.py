@@ -28,8 +28,7 @@ from assoc_hull.variation.fields.field import (
 from assoc_hull.variation.fields.layers import CornerLayer, DeadriseLayer, FieldLayer, Rake
 from assoc_hull.variation.fields.shift_shapes import Bump
 from assoc_hull.variation.parameters.field_layout import Layout, Share
-from assoc_hull.variation.parameters.paper_fields import bossing_ratios, shaft_ratios
-from assoc_hull.variation.parameters.paper_regions import regions_of
+from assoc_hull.variation.parameters.paper_regions import bossing_ratios, regions_of, shaft_ratios
 from assoc_hull.variation.parameters.parent import Parent, cannot_vary
 
 __all__ = [

@@ -17,7 +17,7 @@ from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.tables import HullState
 from assoc_hull.variation.parameters.hull_and_end_measures import bulb_frame, design_waterline

@@ -16,8 +16,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.tables import HullState
-from assoc_hull.variation.certificate.admissible_amplitudes import admissible_amplitudes
-from assoc_hull.variation.certificate.fold_check import MARGIN
+from assoc_hull.variation.certificate.fold_check import MARGIN, admissible_amplitudes
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.compose_map import STEEPEST

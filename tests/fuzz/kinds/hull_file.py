@@ -18,7 +18,7 @@ from assoc_hull.hull import Hull
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
 from assoc_hull.io.hull_file.steps import step_digest
 from assoc_hull.io.hull_file.tables import read_state
-from assoc_hull.model.definition.hash_tree import root_of
+from assoc_hull.model.definition.fingerprint import root_of
 from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.text import change_bytes
 from tests.fuzz.values import change_value

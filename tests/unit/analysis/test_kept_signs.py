@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array
 
-from assoc_hull.analysis.fairness.bent_curves import BentCurves, end_curvatures
-from assoc_hull.analysis.fairness.kept_signs import KeptSigns
+from assoc_hull.analysis.fairness.batten_problem import BentCurves, end_curvatures
+from assoc_hull.analysis.fairness.fair_solution import KeptSigns
 from assoc_hull.edit.net_battens import net_battens
 from assoc_hull.geometry.curves import CurveData
 from assoc_hull.geometry.splines.loft import loft

@@ -137,7 +137,7 @@ def test_findings_and_differences_give_exit_1(
 ) -> None:
     """Each comes with kind, object, place and amount, or key, field and amount."""
     from assoc_hull.edit.checks.finding import Finding
-    from assoc_hull.model.definition.verify import Difference
+    from assoc_hull.model.definition.restore import Difference
 
     gap = Finding("gap", "WL 1 x ST 2", (1.0, 2.0, 3.0), 0.004, "is wide")
     odd = Difference("sections:1/1", "spline.xyz", float("inf"))

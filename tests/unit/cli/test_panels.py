@@ -6,7 +6,7 @@ import pytest
 
 from assoc_hull.cli import main
 from assoc_hull.cli.panels import _FORMS
-from assoc_hull.io.panels.files import PANEL_FORMS, read_panels
+from assoc_hull.io.panels.formats import PANEL_FORMS, read_panels
 from tests.unit.cli.conftest import Json
 
 

@@ -8,7 +8,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.catalogue import CATALOGUE, TABLES
+from assoc_hull.analysis.form.form_parameters import CATALOGUE, TABLES
 from assoc_hull.cli import form_parameters as parameters
 from assoc_hull.cli import main
 from assoc_hull.io.tables.form_parameters import catalogue_schema, form_schema

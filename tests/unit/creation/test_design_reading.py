@@ -9,7 +9,7 @@ import assoc_hull as ah
 from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.creation.design_reading import DesignReading
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.forms.closure import coefficients
 from tests.conftest import Shipped
 from tests.long_forms import long_form

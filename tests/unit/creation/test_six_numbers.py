@@ -8,7 +8,7 @@ import assoc_hull as ah
 from assoc_hull.creation.area_swing import half_sums, swing_areas
 from assoc_hull.creation.six_numbers import SixNumbers, TypedDesign, design_for
 from assoc_hull.creation.six_numbers_net import with_room
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.hull.hull import Hull
 from assoc_hull.hull.typed_ship import _nearly_closed
 from assoc_hull.model.forms.closure import coefficients

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError, UnknownNameError
-from assoc_hull.graph.network import closure, spread
+from assoc_hull.graph.run_update import closure, spread
 from assoc_hull.hull import Hull
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.node import Node

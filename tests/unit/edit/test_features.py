@@ -12,11 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
-from assoc_hull.edit.followup.features import find_features, followed_feature
-from assoc_hull.edit.mapped_features import carry_features
+from assoc_hull.edit.followup.settle_features import find_features, followed_feature
 from assoc_hull.edit.recut.transform import transform
 from assoc_hull.edit.session import Edit
-from assoc_hull.edit.space_map import space_map
+from assoc_hull.edit.space_map import carry_features, space_map
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.definition.fingerprint import fingerprint

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.edit.nudge import Nudge, nudge, nudged
+from assoc_hull.edit.carried_net import Nudge, nudge, nudged
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, RefusedEditError
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.tables import copy_state
 from assoc_hull.variation.aiming.hull_problem import HullProblem
 from assoc_hull.variation.carrying.carry_hull import carry_out

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import assoc_hull as ah
-from assoc_hull.edit.report import Movement, movement_words
+from assoc_hull.edit.step import Movement, movement_words
 
 
 def test_a_report_names_the_point_that_moved_most_by_its_lines(tmp_path: Path) -> None:

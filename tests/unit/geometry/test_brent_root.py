@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from assoc_hull.geometry.numeric.roots import brent_root
+from assoc_hull.geometry.numeric.polynomials import brent_root
 
 
 def _cubic(a: float, b: float, c: float) -> Callable[[float], float]:

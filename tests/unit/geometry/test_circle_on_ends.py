@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.geometry.polylines.fitted_circle import circle_on_ends
+from assoc_hull.geometry.polylines.circular_arcs import circle_on_ends
 
 NORMAL = np.array([1.0, 0.0, 0.0])
 

@@ -7,7 +7,7 @@ import pytest
 from numpy.polynomial.polynomial import polyfromroots
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.numeric.roots import unit_roots
+from assoc_hull.geometry.numeric.polynomials import unit_roots
 
 RNG = np.random.default_rng(5)
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assoc_hull.errors import RingError
-from assoc_hull.graph.levels import levels
+from assoc_hull.graph.run_update import levels
 
 Edges = list[tuple[int, int]]
 

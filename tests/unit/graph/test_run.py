@@ -14,9 +14,14 @@ from hypothesis import strategies as st
 from assoc_hull.errors import AssocHullError, TooFewPointsError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.levels import levels
-from assoc_hull.graph.network import Evaluation, Readers
-from assoc_hull.graph.run_update import FailurePolicy, UpdatePass, run_update
+from assoc_hull.graph.run_update import (
+    Evaluation,
+    FailurePolicy,
+    Readers,
+    UpdatePass,
+    levels,
+    run_update,
+)
 from assoc_hull.graph.table import NumberColumn, Table, numbers
 
 Formulas = dict[int, tuple[int, ...]]

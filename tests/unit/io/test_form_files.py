@@ -9,8 +9,13 @@ from typing import Any
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.form_parameters import FormReport, ReportRow, form_report, number_text
+from assoc_hull.analysis.form.form_parameters import (
+    CATALOGUE,
+    FormReport,
+    ReportRow,
+    form_report,
+    number_text,
+)
 from assoc_hull.io.tables.form_parameters import (
     COLUMNS,
     catalogue_text,

@@ -23,7 +23,7 @@ from assoc_hull.io.hull_json import (
     hull_json_schema,
     read_hull_json,
 )
-from assoc_hull.model.definition.schema import check_definition, check_published
+from assoc_hull.model.definition.records import check_definition, check_published
 from tests.fuzz.kinds.hulls import edited_text, plain_text
 from tests.fuzz.values import change_value
 

@@ -166,7 +166,7 @@ def test_an_option_that_moves_lines_makes_digitised_lines_of_them(
 
 def test_images_to_starboard_are_no_curves_of_their_own(edited: Hull, tmp_path: Path) -> None:
     """Lines written to both sides come back as the half that they are."""
-    from assoc_hull.io.iges.lines import write_iges_lines
+    from assoc_hull.io.iges.write import write_iges_lines
 
     write_iges_lines(edited.state, tmp_path / "both.igs", half=False)
     assert facts(ah.read(tmp_path / "both.igs")) == facts(edited)

@@ -18,7 +18,7 @@ from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh, below_water
 from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import examples
-from assoc_hull.io.panels.files import PANEL_FORMS, panel_bytes, read_panels, write_panels
+from assoc_hull.io.panels.formats import PANEL_FORMS, panel_bytes, read_panels, write_panels
 
 TEXT = ("nemoh", "wamit", "hams", "stl-text")
 

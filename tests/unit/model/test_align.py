@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.model.align_intersections import align_curve, align_plane_roots
+from assoc_hull.model.network import align_curve, align_plane_roots
 from assoc_hull.model.tables import CurveIntersections
 
 Roots = tuple[np.typing.NDArray[np.int8], np.typing.NDArray[np.float64]]

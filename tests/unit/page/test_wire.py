@@ -10,7 +10,7 @@ import assoc_hull as ah
 from assoc_hull.edit.shapes import joined
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import SplineBatch
-from assoc_hull.geometry.splines.evaluation import curvature
+from assoc_hull.geometry.splines.segments import curvature
 from assoc_hull.page.wire import Frame, FrameKind, pack, unpack
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.study.row_queue import MOST_ROWS, RowQueue
+from assoc_hull.study.side_processes import MOST_ROWS, RowQueue
 
 
 @given(

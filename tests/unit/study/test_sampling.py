@@ -9,8 +9,7 @@ import pandas as pd
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.study.design import StudyDesign
-from assoc_hull.study.sampling import METHODS
+from assoc_hull.study.design import METHODS, StudyDesign
 
 RANGES = {"breadth": (9.0, 11.0), "draught": (6.0, 6.5)}
 

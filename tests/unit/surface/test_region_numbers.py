@@ -9,8 +9,8 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.surface.regions.curvature_regions import band_areas
+from assoc_hull.surface.regions.level_lines import RegionAreas
 from assoc_hull.surface.regions.options import region_options
-from assoc_hull.surface.regions.region_parts import RegionAreas
 
 
 @pytest.mark.parametrize(

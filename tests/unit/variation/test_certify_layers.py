@@ -9,8 +9,12 @@ from hypothesis import given, settings
 
 from assoc_hull.errors import WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.certificate.admissible_amplitudes import admissible_amplitudes
-from assoc_hull.variation.certificate.fold_check import certify, fold_outside, image_box
+from assoc_hull.variation.certificate.fold_check import (
+    admissible_amplitudes,
+    certify,
+    fold_outside,
+    image_box,
+)
 from assoc_hull.variation.fields.anchor_fields import hat_field
 from assoc_hull.variation.fields.bounded_functions import BLENDS, BlendChain
 from assoc_hull.variation.fields.field import (

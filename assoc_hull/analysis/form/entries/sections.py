@@ -25,10 +25,10 @@ from assoc_hull.analysis.form.parameter import (
 )
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
-from assoc_hull.geometry.numeric.roots import brent_root
+from assoc_hull.geometry.numeric.polynomials import brent_root
 from assoc_hull.geometry.polylines.circular_arcs import CircularArc, find_arcs
-from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.plane_intersections import coordinate_turns, points_on_plane
+from assoc_hull.geometry.splines.segments import sample
 
 __all__ = [
     "AFTER_SECTION",

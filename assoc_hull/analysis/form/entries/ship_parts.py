@@ -19,7 +19,7 @@ from assoc_hull.analysis.form.parameter import (
     entries_in,
     parameter,
 )
-from assoc_hull.geometry.floating.slices import SliceIntegrals
+from assoc_hull.geometry.floating.sections import SliceIntegrals
 
 __all__ = ["SHIP_PARTS"]
 

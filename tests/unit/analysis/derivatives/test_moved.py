@@ -20,7 +20,7 @@ from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation, hea
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import values_at
 from assoc_hull.analysis.hydrostatics.record import FIELDS, HydrostaticHeader
 from assoc_hull.hull import Hull
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.network import curve_data
 
 POINT = "WL 0.75 x ST 2"
 """Of Series 60, CB 0.60: some hundred others follow it."""

@@ -23,7 +23,7 @@ from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedInteg
 from assoc_hull.geometry.splines.backend import backend, set_backend
 from assoc_hull.geometry.surfaces.coons import CoonsStrips
 from assoc_hull.hull import Hull
-from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.network import curve_data
 
 SHIPS = ("wigley", "series60_60", "seaking_ship", "prelikon_ship", "container_ship_225m")
 """Plain; with knuckles and borders of flats; with a bulb; with a transom; with raked edges."""

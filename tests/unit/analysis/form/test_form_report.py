@@ -8,8 +8,15 @@ from typing import Any
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.catalogue import CATALOGUE, TABLES, TITLES, by_table
-from assoc_hull.analysis.form.form_parameters import FormReport, form_report, number_text
+from assoc_hull.analysis.form.form_parameters import (
+    CATALOGUE,
+    TABLES,
+    TITLES,
+    FormReport,
+    by_table,
+    form_report,
+    number_text,
+)
 from assoc_hull.analysis.form.parameter import FormParameter
 from assoc_hull.analysis.hydrostatics.flotation import Flotation
 from assoc_hull.errors import BadInputError, UnknownNameError

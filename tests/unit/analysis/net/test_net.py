@@ -18,7 +18,7 @@ from assoc_hull.analysis.net.strip_boundaries import StripBoundary, boundary_arc
 from assoc_hull.analysis.net.surface_layout import lay_out_surface, parallel_slabs
 from assoc_hull.geometry.curves import PointKind
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
-from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.shipped.series60 import series60_adopted
 from assoc_hull.shipped.wigley import wigley

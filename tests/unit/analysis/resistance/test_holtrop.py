@@ -14,9 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import assoc_hull as ah
-from assoc_hull.analysis.resistance.holtrop import Method, holtrop
+from assoc_hull.analysis.resistance.holtrop import TYPES, Method, holtrop, types_of
 from assoc_hull.analysis.resistance.holtrop_ship import HoltropShip
-from assoc_hull.analysis.resistance.validity import TYPES, types_of
 from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError
 from tests.unit.test_bad_arguments import spoilt
 

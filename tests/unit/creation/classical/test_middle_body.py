@@ -19,8 +19,8 @@ from assoc_hull.creation.classical.middle_body import MiddleBody, Midship, midsh
 from assoc_hull.creation.classical.report import DefinedSection, departures
 from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from assoc_hull.geometry.curves import PointKind
-from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.line_source import line_curve_data
 
 MIDSHIP = Midship(16.0, 2.0, 0.3, 2.5)

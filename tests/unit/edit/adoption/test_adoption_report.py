@@ -8,8 +8,8 @@ from scipy.spatial import cKDTree
 
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, LineReport, adopt
 from assoc_hull.geometry.curves import CurveData, FloatArray
-from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import HullState, Particulars

@@ -9,7 +9,7 @@ from assoc_hull.edit.checks.finding import Finding
 from assoc_hull.edit.checks.hull_findings import check
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker, PointSpec

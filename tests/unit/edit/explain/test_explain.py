@@ -8,8 +8,7 @@ from assoc_hull.edit.explain.causes import node_of, why
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, ForeignPointError
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.network import Readers
-from assoc_hull.graph.trace_causes import CauseTracer, cause_chain
+from assoc_hull.graph.run_update import CauseTracer, Readers, cause_chain
 from assoc_hull.model.address import resolve_address
 from assoc_hull.model.kinds import Role
 from assoc_hull.model.make_objects import Maker

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.followup.features import circle_side, find_features, followed_feature
-from assoc_hull.edit.followup.generated_curves import CurveRecipe
+from assoc_hull.edit.followup.settle_features import circle_side, find_features, followed_feature
+from assoc_hull.edit.followup.take_up_definitions import CurveRecipe
 from assoc_hull.model.feature_geometry import line_numbers
 from assoc_hull.model.features import Feature
 from assoc_hull.shipped.wigley import wigley

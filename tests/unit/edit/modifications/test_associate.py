@@ -10,7 +10,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError, RingError, UnknownNameError
-from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import evaluate
 from tests.independent import lost_meetings, trouble
 from tests.net_strategies import fresh, refused
 

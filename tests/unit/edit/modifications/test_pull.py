@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.edit.hull_normals import hull_normals
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray
 from tests.independent import trouble

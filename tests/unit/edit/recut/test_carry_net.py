@@ -7,7 +7,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.mapped_planes import carry_planes
-from assoc_hull.edit.recut.carry_structure import NetMap, carry_net
+from assoc_hull.edit.recut.carry_numbers import NetMap, carry_net
 from assoc_hull.edit.space_map import PointMapping, SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import FloatArray, IntArray

@@ -20,7 +20,7 @@ from assoc_hull.errors import (
 )
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.shipped.wigley import wigley_half_breadth
 from tests.independent import lost_meetings, trouble

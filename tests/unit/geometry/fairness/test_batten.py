@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.geometry.fairness.batten import batten_coefficients
+from assoc_hull.geometry.fairness.criteria import batten_coefficients
 
 _steps = st.lists(st.floats(0.1, 10.0), min_size=4, max_size=4)
 

@@ -11,7 +11,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.fairness.combs import comb_teeth
 from assoc_hull.geometry.fairness.inflections import inflections
-from assoc_hull.geometry.splines.evaluation import curvature
+from assoc_hull.geometry.splines.segments import curvature
 
 UP = np.array([0.0, 0.0, 1.0])
 

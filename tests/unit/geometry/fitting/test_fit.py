@@ -10,9 +10,15 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fitting.basis import basis_rows, clamped_knots
 from assoc_hull.geometry.fitting.fit_input import HeldControls, Samples
-from assoc_hull.geometry.fitting.fit_surface import SurfaceFit, even_breaks, fit_surface, solve_once
+from assoc_hull.geometry.fitting.fit_surface import (
+    SurfaceFit,
+    bending,
+    even_breaks,
+    fit_surface,
+    solve_controls,
+    solve_once,
+)
 from assoc_hull.geometry.fitting.foot_points import derivatives, distances, foot_points
-from assoc_hull.geometry.fitting.least_squares import bending, solve_controls
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
 UNEVEN = np.array([0.0, 0.4, 1.0, 1.0, 2.5, 3.0, 4.0])

@@ -10,8 +10,12 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves
 from assoc_hull.geometry.floating.immersed_strips import prepare_strips
 from assoc_hull.geometry.floating.immersion import FloatingPlanes, integrate_immersed
 from assoc_hull.geometry.floating.raked_strips import StripSpans, strip_spans
-from assoc_hull.geometry.floating.sections import areas_at, cross_section
-from assoc_hull.geometry.floating.slices import SliceIntegrals, integrate_slice
+from assoc_hull.geometry.floating.sections import (
+    SliceIntegrals,
+    areas_at,
+    cross_section,
+    integrate_slice,
+)
 from assoc_hull.geometry.numeric.quadrature import gauss
 from tests.exact_hulls import FormStrips, box, ellipsoid, wigley
 

@@ -19,9 +19,10 @@ from assoc_hull.geometry.form_curves.curve import (
     end_vertices,
     form_vertices,
 )
-from assoc_hull.geometry.form_curves.integrals import area_table, form_integrals
-from assoc_hull.geometry.form_curves.middle_vertex import (
+from assoc_hull.geometry.form_curves.integrals import (
+    area_table,
     fair_vertex,
+    form_integrals,
     middle_vertex,
     required_middle,
 )

@@ -15,8 +15,7 @@ from assoc_hull.geometry.form_curves.curve import (
     form_values,
     form_vertices,
 )
-from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.geometry.form_curves.middle_vertex import fair_vertex, middle_vertex
+from assoc_hull.geometry.form_curves.integrals import fair_vertex, form_integrals, middle_vertex
 from assoc_hull.geometry.form_curves.shape import (
     form_energy,
     form_inflections,

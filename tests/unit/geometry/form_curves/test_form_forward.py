@@ -5,7 +5,7 @@ import pytest
 
 from assoc_hull.geometry.form_curves.checks import forward_centroids
 from assoc_hull.geometry.form_curves.curve import FormEnd, end_vertices
-from assoc_hull.geometry.form_curves.middle_vertex import middle_vertex, with_middle
+from assoc_hull.geometry.form_curves.integrals import middle_vertex, with_middle
 from assoc_hull.geometry.form_curves.shape import least_rate
 from tests.form_curves import CURVES
 

@@ -9,11 +9,11 @@ from scipy.optimize import minimize
 
 from assoc_hull.errors import DegenerateEndsError, NoMiddleVertexError
 from assoc_hull.geometry.form_curves.curve import FormEnd, end_vertices, form_values, form_vertices
-from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.geometry.form_curves.middle_vertex import (
+from assoc_hull.geometry.form_curves.integrals import (
     area_vertex,
     centroid_limit,
     fair_vertex,
+    form_integrals,
     middle_vertex,
     only_area,
     required_middle,

@@ -10,12 +10,13 @@ from scipy.optimize import minimize
 from assoc_hull.geometry.form_curves.chain import FormChain, straight_vertices
 from assoc_hull.geometry.form_curves.curve import FormEnd, form_vertices
 from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.geometry.form_curves.shape import form_energy, least_rate
-from assoc_hull.geometry.form_curves.tangents import (
+from assoc_hull.geometry.form_curves.shape import (
     FASTEST,
     SLOWEST,
     chord_lengths,
     fairest_tangents,
+    form_energy,
+    least_rate,
     usual_tangents,
 )
 from tests.cases import versluis

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.testing import assert_array_equal
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.numeric.roots import bracketed_roots, false_position
+from assoc_hull.geometry.numeric.polynomials import bracketed_roots, false_position
 
 
 def test_roots_of_many_polynomials_at_once_each() -> None:

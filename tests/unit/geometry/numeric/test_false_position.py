@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.numeric.roots import false_position
+from assoc_hull.geometry.numeric.polynomials import false_position
 
 roots = st.lists(st.floats(0.02, 0.98), min_size=1, max_size=8)
 

@@ -7,7 +7,6 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.arc_chains import positive_on_left
 from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.cell_subdivision import (
     subdivide_again,
@@ -17,6 +16,7 @@ from assoc_hull.geometry.patches.cell_subdivision import (
 from assoc_hull.geometry.patches.cells import SignCells, ZeroSetArcs
 from assoc_hull.geometry.patches.components import ZeroSetComponent, join_arcs
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
+from assoc_hull.geometry.patches.line_ends import positive_on_left
 from assoc_hull.geometry.patches.zero_set_arcs import arcs_of, sample_arcs
 
 KINDS = ("closed", "open", "junction", "isolated")

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.area_elements import elements_on_grid
 from assoc_hull.geometry.patches.area_integrals import (
     AreaIntegrator,
     areas_over_boxes,
+    elements_on_grid,
     integrals_along_lines,
 )
 from assoc_hull.geometry.patches.areas_by_sign import SignAreas, sign_areas

@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 
-from assoc_hull.geometry.patches.adjacency import SIDES, Lattice, box_clusters
-from assoc_hull.geometry.patches.arc_chains import chain_arcs, find_joints, next_pieces
 from assoc_hull.geometry.patches.area_integrals import AreaIntegrator, area_series, areas_over_boxes
 from assoc_hull.geometry.patches.areas_by_sign import (
     SAMPLES,
@@ -35,7 +33,14 @@ from assoc_hull.geometry.patches.cell_subdivision import (
     subdivide_again,
     subdivide_patches,
 )
-from assoc_hull.geometry.patches.cells import CellKind, SignCells, ZeroSetArcs
+from assoc_hull.geometry.patches.cells import (
+    SIDES,
+    CellKind,
+    Lattice,
+    SignCells,
+    ZeroSetArcs,
+    box_clusters,
+)
 from assoc_hull.geometry.patches.components import (
     END_KINDS,
     ComponentKind,
@@ -48,7 +53,13 @@ from assoc_hull.geometry.patches.curvature_functions import (
     RationalTerms,
     gauss_function,
 )
-from assoc_hull.geometry.patches.line_ends import ZeroSetLinks, borders_without_arcs
+from assoc_hull.geometry.patches.line_ends import (
+    ZeroSetLinks,
+    borders_without_arcs,
+    chain_arcs,
+    find_joints,
+    next_pieces,
+)
 from assoc_hull.geometry.patches.spline_surface import SplineSurface, checked_net
 from assoc_hull.geometry.patches.triangulation import facets_of, stitch_facets
 from assoc_hull.geometry.patches.zero_set_arcs import arc_heights, arcs_of, sample_arcs

@@ -3,14 +3,15 @@
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.patches.adjacency import (
+from assoc_hull.geometry.patches.cells import (
     Lattice,
     box_clusters,
+    cancel_opposite_walks,
     connected_labels,
+    shared_borders,
     touching_pairs,
 )
-from assoc_hull.geometry.patches.arc_chains import chain_arcs, next_pieces
-from assoc_hull.geometry.patches.cell_borders import cancel_opposite_walks, shared_borders
+from assoc_hull.geometry.patches.line_ends import chain_arcs, next_pieces
 
 
 def test_patches_of_a_surface_lie_side_by_side() -> None:

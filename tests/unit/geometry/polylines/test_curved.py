@@ -7,8 +7,8 @@ import pytest
 
 from assoc_hull.geometry.curves import CurveData
 from assoc_hull.geometry.polylines.smoothing import fit_polyline
-from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import sample
 
 
 def _area(points: np.ndarray) -> float:

@@ -10,13 +10,12 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.plane import Plane
 from assoc_hull.geometry.splines.backend import backend, set_backend
-from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import (
     PlaneIntersections,
     intersect_planes,
 )
-from assoc_hull.geometry.splines.segments import bezier_points
+from assoc_hull.geometry.splines.segments import bezier_points, evaluate
 
 UP = np.array([0.0, 0.0, 1.0])
 SKEW = np.array([0.48, 0.6, 0.64])

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.splines.evaluation import curvature
+from assoc_hull.geometry.splines.segments import curvature
 
 UP = np.array([0.0, 0.0, 1.0])
 

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.testing import assert_array_equal
 
 from assoc_hull.geometry.curves import CurveData
-from assoc_hull.geometry.splines.evaluation import derivative
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.loft_tangents import loft_tangents
 from assoc_hull.geometry.splines.plane_heights import PlaneHeights, heights_over_plane, nodes_of
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes, points_on_plane
+from assoc_hull.geometry.splines.segments import derivative
 
 
 def test_the_height_of_curves_over_a_plane_segment() -> None:

@@ -14,8 +14,7 @@ from assoc_hull.errors import BadInputError, CoincidentPointsError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, PointKind
 from assoc_hull.geometry.integrals.area_moments import line_integral, plane_integrals, section_area
 from assoc_hull.geometry.numeric.dual import Dual, as_array, real
-from assoc_hull.geometry.numeric.polynomials import differentiate, horner
-from assoc_hull.geometry.numeric.roots import roots_with_tangents
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner, roots_with_tangents
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.loft_tangents import DualSplines, loft_tangents
 from assoc_hull.geometry.splines.segments import bezier_points, power_coefficients

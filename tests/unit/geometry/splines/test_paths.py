@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
-from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.paths import Paths, shape_paths
+from assoc_hull.geometry.splines.segments import evaluate
 
 STEP = 1e-6
 

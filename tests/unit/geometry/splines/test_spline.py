@@ -9,9 +9,14 @@ from scipy.interpolate import CubicSpline
 from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.backend import backend, set_backend
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate, sample
 from assoc_hull.geometry.splines.loft import loft
-from assoc_hull.geometry.splines.segments import bezier_points, segment_start
+from assoc_hull.geometry.splines.segments import (
+    bezier_points,
+    derivative,
+    evaluate,
+    sample,
+    segment_start,
+)
 
 WAVE = np.array([[0, 0, 0], [1, 0.8, 0.1], [2.5, 1, 0.3], [3, 0.2, 0.2], [4.4, -0.5, 0], [6, 0, 1]])
 GIVEN = (EndKind.TANGENT, EndKind.TANGENT)

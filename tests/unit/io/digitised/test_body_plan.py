@@ -14,8 +14,8 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
 from assoc_hull.io.digitised.body_plan import BodyPlanRules, is_body_plan, read_body_plan
 from assoc_hull.io.digitised.read import read_lines
-from assoc_hull.io.lines.drawn_twice import distances_off
 from assoc_hull.io.lines.line_points import lines_as_points
+from assoc_hull.io.lines.mend_lines import distances_off
 from assoc_hull.io.lines.raw_lines import RawPiece
 from tests.body_plans import body_plan
 

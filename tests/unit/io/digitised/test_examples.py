@@ -6,7 +6,7 @@ import numpy as np
 
 from assoc_hull.io.digitised.read import read_lines, to_one_side
 from assoc_hull.io.digitised.text import parse_iges
-from assoc_hull.io.iges.lines import iges_of_lines
+from assoc_hull.io.iges.write import iges_of_lines
 from assoc_hull.io.lines.raw_lines import RawPiece
 from assoc_hull.io.reports import Notebook
 from assoc_hull.shipped.wigley import wigley

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.io.dxf.entities import RawSpline, drawing_entities
-from assoc_hull.io.dxf.plan_layout import PlanView, lay_out
+from assoc_hull.io.dxf.lines_plan import PlanView, lay_out
 
 
 def test_the_entities_of_an_ascii_dxf_drawing_group_codes() -> None:

@@ -13,13 +13,12 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, PointKind
 from assoc_hull.geometry.splines.control_polygon import control_polygon
-from assoc_hull.geometry.splines.evaluation import positions
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import positions
 from assoc_hull.hull import Hull
 from assoc_hull.io.digitised.read import read_lines
-from assoc_hull.io.dxf.document import NAMES
 from assoc_hull.io.dxf.entities import RawSpline
-from assoc_hull.io.dxf.lines import lines_drawing
+from assoc_hull.io.dxf.lines import NAMES, lines_drawing
 from assoc_hull.io.dxf.lines_plan import plan_drawing
 from assoc_hull.io.lines.line_points import splines_of
 from assoc_hull.io.lines.slices import HullSlices

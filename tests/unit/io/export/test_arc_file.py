@@ -18,7 +18,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.hull import Hull
 from assoc_hull.hull.results import ProductionArcs
-from assoc_hull.io.dxf.document import NAMES
+from assoc_hull.io.dxf.lines import NAMES
 from assoc_hull.io.export.arcs import arc_table
 
 WITHIN = 0.0005

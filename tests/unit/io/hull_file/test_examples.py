@@ -7,8 +7,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit
+from assoc_hull.edit.step import EditReport
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file.database import SCHEMA, create_tables
 from assoc_hull.io.hull_file.saving import close_hull_file, save_hull

@@ -22,7 +22,7 @@ from assoc_hull.io.hull_file.database import SCHEMA, known_schema
 from assoc_hull.io.hull_file.packed_arrays import pack_arrays, unpack_arrays
 from assoc_hull.io.hull_file.steps import step_digest
 from assoc_hull.io.hull_file.tables import read_state
-from assoc_hull.model.definition.hash_tree import root_of
+from assoc_hull.model.definition.fingerprint import root_of
 
 POINT = "WL 4.6875 x ST 3"
 OLD = Path(__file__).parents[1] / "old_files"

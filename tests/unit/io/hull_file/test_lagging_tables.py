@@ -11,7 +11,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.errors import DamagedFileError
 from assoc_hull.io.hull_file.steps import step_digest
-from assoc_hull.model.definition.hash_tree import is_root
+from assoc_hull.model.definition.fingerprint import is_root
 from benchmarks.copies import copies_of
 from tests.properties.test_changes import picture
 

@@ -11,14 +11,19 @@ import pytest
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, PointKind
 from assoc_hull.geometry.splines.control_polygon import control_polygon
-from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.hull import Hull
 from assoc_hull.io.cad.check_file import shape_in
 from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.iges.curves import curves_of_iges, holds_surfaces
-from assoc_hull.io.iges.lines import curve_values, iges_of_lines, write_iges_lines
-from assoc_hull.io.iges.write import IgesLayout, iges_text
+from assoc_hull.io.iges.write import (
+    IgesLayout,
+    curve_values,
+    iges_of_lines,
+    iges_text,
+    write_iges_lines,
+)
 from assoc_hull.io.lines.line_points import splines_of
 from tests.conftest import Shipped
 from tests.cut_hulls import three_blocks

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.lines.drawn_twice import drawn_once
+from assoc_hull.io.lines.mend_lines import drawn_once
 from assoc_hull.io.lines.raw_lines import RawPiece
 from assoc_hull.io.reports import Notebook
 

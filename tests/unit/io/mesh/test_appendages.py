@@ -15,7 +15,7 @@ from assoc_hull.geometry.surfaces.triangles import (
     merge_vertices,
 )
 from assoc_hull.io.lines.slices import HullSlices
-from assoc_hull.io.mesh.tilt import refuse_tilt
+from assoc_hull.io.mesh.frame import refuse_tilt
 from assoc_hull.io.slicing.mesh_lines import slice_mesh
 from tests import meshes
 

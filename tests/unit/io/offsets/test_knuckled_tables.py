@@ -10,7 +10,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray, PointKind
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.io.offsets.complete_table import net_from_table
 from assoc_hull.io.offsets.knuckles import knuckles_of_table
 from assoc_hull.io.offsets.net import lines_of_table

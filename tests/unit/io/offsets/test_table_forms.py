@@ -12,8 +12,7 @@ from assoc_hull.io.offsets.hints import read_hints
 from assoc_hull.io.offsets.read import read_offsets
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.reports import OffsetReport
-from assoc_hull.io.tables.cell_numbers import cell_value, label_number
-from assoc_hull.io.tables.column_names import column_name
+from assoc_hull.io.tables.column_names import cell_value, column_name, label_number
 
 HALF = [(0, 0, 0.5, 2), (5, 3, 6, 7), (10, 5, 7.5, 8), (15, 4, 7, 7.5), (20, 0, 0.2, 1)]
 HEAD = "# 0 = AP; Lpp = 100 m\n"

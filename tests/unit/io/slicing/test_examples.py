@@ -6,7 +6,7 @@ import numpy as np
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.surfaces.triangles import grid_triangles
-from assoc_hull.io.cad.hull_faces import HullFaces
+from assoc_hull.io.cad.faces import HullFaces
 from assoc_hull.io.lines.slices import LinePiece, SliceLine
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.slicing.mesh_lines import report_bottom, slice_mesh

@@ -9,15 +9,15 @@ import pytest
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray
 from assoc_hull.geometry.fairness.inflections import inflections
-from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.hull import Hull
 from assoc_hull.io.digitised.read import read_lines
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.slicing.mesh_lines import slice_mesh
 from assoc_hull.io.slicing.net import SliceReport, net_from_slices, sources_from_slices
-from assoc_hull.model.definition.verify import verify
+from assoc_hull.model.definition.restore import verify
 from assoc_hull.model.tables import HullState
 from tests import meshes
 

@@ -13,7 +13,7 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.cad.hull_faces import HullFaces
+from assoc_hull.io.cad.faces import HullFaces
 from assoc_hull.io.iges.write import iges_text
 from assoc_hull.io.lines.slices import HullSlices
 from assoc_hull.io.slicing.surface_lines import read_surface_lines, slice_surfaces

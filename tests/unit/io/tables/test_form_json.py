@@ -12,8 +12,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 import assoc_hull as ah
-from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.form_parameters import form_report
+from assoc_hull.analysis.form.form_parameters import CATALOGUE, form_report
 from assoc_hull.analysis.form.parameter import FormParameter, FormValue
 from assoc_hull.io.tables.form_parameters import (
     catalogue_json,

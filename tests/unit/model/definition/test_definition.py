@@ -19,12 +19,10 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, CoincidentPointsError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.network import Evaluation
-from assoc_hull.graph.run_update import FailurePolicy
+from assoc_hull.graph.run_update import Evaluation, FailurePolicy
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.definition.records import definition, published
-from assoc_hull.model.definition.restore import from_definition
-from assoc_hull.model.definition.verify import verify
+from assoc_hull.model.definition.restore import from_definition, verify
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.make_objects import Maker, PointSpec
 from assoc_hull.model.network import HullNetwork

@@ -14,10 +14,11 @@ from assoc_hull.model.forms.closure import close_sac, closing_area
 from assoc_hull.model.forms.form_values import Forms, chain_of
 from assoc_hull.model.forms.generate_points import MarkedSplines, definitions_read, first_marks
 from assoc_hull.model.forms.line_layout import course_layout, joints_of, water_layout
-from assoc_hull.model.forms.section_pieces import SectionArcs, SectionShape
 from assoc_hull.model.forms.sections import (
     RADIUS_SLACK,
+    SectionArcs,
     SectionEnds,
+    SectionShape,
     bilge_area,
     bulb_vertices,
     join_vertices,

@@ -13,8 +13,8 @@ from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.form_curves.curve import form_at
 from assoc_hull.geometry.form_curves.integrals import form_integrals
-from assoc_hull.geometry.splines.evaluation import derivative, evaluate
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import derivative, evaluate
 from assoc_hull.model.form_definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.generate_points import (
@@ -24,8 +24,12 @@ from assoc_hull.model.forms.generate_points import (
     marks_suffice,
 )
 from assoc_hull.model.forms.line_layout import layout_at
-from assoc_hull.model.forms.section_pieces import SectionCurves, SectionShape
-from assoc_hull.model.forms.sections import parts_at_draught, section_shape
+from assoc_hull.model.forms.sections import (
+    SectionCurves,
+    SectionShape,
+    parts_at_draught,
+    section_shape,
+)
 from tests.form_ship import AREAS, PARTICULARS, WATERLINE, course, plain_ship
 
 STATIONS = (0.0, 4.5, 9.0, 18.0, 36.0, 45.0, 54.0, 63.0, 90.0, 126.0, 135.0, 153.0, 171.0, 178.0)

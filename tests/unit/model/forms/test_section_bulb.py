@@ -15,8 +15,7 @@ from assoc_hull.model.form_definition import GeneratedCurve
 from assoc_hull.model.forms.form_values import Forms
 from assoc_hull.model.forms.generate_points import definitions_read, generated_points, marks_for
 from assoc_hull.model.forms.line_layout import ends_for, layout_at
-from assoc_hull.model.forms.section_pieces import SectionCurves
-from assoc_hull.model.forms.sections import bulb_vertices, section_shape
+from assoc_hull.model.forms.sections import SectionCurves, bulb_vertices, section_shape
 from assoc_hull.shipped.container_ship_225m import container_ship_225m_design
 
 DESIGN = container_ship_225m_design()

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.attached_body import AttachedBody
-from assoc_hull.plot.lines_plan.body_outlines import drawn_outlines
+from assoc_hull.plot.lines_plan.drawing import drawn_outlines
 from assoc_hull.plot.lines_plan.plan import lines_plan
 from assoc_hull.shipped.classical_ships import classical_ship
 

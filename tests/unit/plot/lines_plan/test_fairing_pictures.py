@@ -12,9 +12,8 @@ from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import examples
 from assoc_hull.plot import combs_plan
 from assoc_hull.plot.lines_plan.comparison import comparison_plan
-from assoc_hull.plot.lines_plan.drawing import drawing
+from assoc_hull.plot.lines_plan.drawing import drawing, zoomed
 from assoc_hull.plot.lines_plan.three_views import lay_out_views
-from assoc_hull.plot.lines_plan.zoom_window import zoomed
 from assoc_hull.plot.sheet.labels import overlaps
 from assoc_hull.plot.sheet.paper import MARGIN, PAPERS
 from tests import meshes

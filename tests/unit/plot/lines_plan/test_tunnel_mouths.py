@@ -10,9 +10,8 @@ from matplotlib.figure import Figure
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.lines_plan.drawing import drawing
+from assoc_hull.plot.lines_plan.drawing import PlotMouth, drawing, outside_mouths
 from assoc_hull.plot.lines_plan.plan import lines_plan
-from assoc_hull.plot.lines_plan.tunnel_mouths import PlotMouth, outside_mouths
 
 Lines = Callable[[Figure, str], list[FloatArray]]
 

@@ -9,8 +9,8 @@ import pytest
 
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.plot.plates.hull_map import hull_map, hull_sheet
-from assoc_hull.plot.plates.hull_tiles import hull_tiles
 from assoc_hull.plot.plates.lit_surface import surface_figure
+from assoc_hull.plot.plates.paint_tiles import hull_tiles
 from assoc_hull.surface.plating.hull_plates import HullPlateTable, hull_plates
 from assoc_hull.surface.plating.hull_seams import HullSeams
 from assoc_hull.surface.plating.hull_shell import HullShell

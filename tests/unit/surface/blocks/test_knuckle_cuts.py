@@ -11,8 +11,8 @@ from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
 from assoc_hull.hull.results import HullSurface
 from assoc_hull.surface.blocks.block_plan import block_plans
 from assoc_hull.surface.blocks.cell_regions import CellRegion
+from assoc_hull.surface.blocks.end_cuts import knuckle_cuts
 from assoc_hull.surface.blocks.fitted_surface import surface_faults
-from assoc_hull.surface.blocks.knuckle_cuts import knuckle_cuts
 from assoc_hull.surface.cells.net_faces import sound_cells
 from tests.drawn_hulls import box_barge, half_chined, ro_pax, transom_boat
 

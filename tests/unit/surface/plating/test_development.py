@@ -7,8 +7,13 @@ from scipy.optimize import least_squares
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.plating.development import LABEL, development, equal_grid
-from assoc_hull.surface.plating.grid_flattening import flatten_grid, springs_of
+from assoc_hull.surface.plating.development import (
+    LABEL,
+    development,
+    equal_grid,
+    flatten_grid,
+    springs_of,
+)
 from tests import bent_plates
 from tests.curved_patches import patch
 

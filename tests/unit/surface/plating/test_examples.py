@@ -12,8 +12,7 @@ from assoc_hull.geometry.patches.bernstein_polynomials import BoundedPolynomial
 from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.plating.curvature_nodes import curvature_nodes
-from assoc_hull.surface.plating.development import development, equal_grid
-from assoc_hull.surface.plating.grid_flattening import flatten_grid, springs_of
+from assoc_hull.surface.plating.development import development, equal_grid, flatten_grid, springs_of
 from assoc_hull.surface.plating.hull_plate import COARSE, CurvatureDoubt, doubled_band, nodes_in
 from assoc_hull.surface.plating.hull_plates import COLUMNS as HULL_PLATE_COLUMNS
 from assoc_hull.surface.plating.hull_plates import hull_plates

@@ -14,9 +14,14 @@ from assoc_hull.surface.regions.curvature_regions import (
     keys_of,
     list_in_words,
 )
-from assoc_hull.surface.regions.level_lines import LevelLine, edge_polyline
+from assoc_hull.surface.regions.level_lines import (
+    AREAS,
+    ArcPoints,
+    LevelLine,
+    RegionAreas,
+    edge_polyline,
+)
 from assoc_hull.surface.regions.options import region_options, zero_band
-from assoc_hull.surface.regions.region_parts import AREAS, ArcPoints, RegionAreas
 
 
 def test_areas_of_regions_of_one_surface_or_of_many() -> None:

@@ -16,8 +16,8 @@ from assoc_hull.errors import (
     UnreachableError,
 )
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.variation.aiming.newton_iteration import StoppingRule
 from assoc_hull.variation.aiming.report import AimReport
-from assoc_hull.variation.aiming.stopping_rule import StoppingRule
 from assoc_hull.variation.aiming.target_solver import solve_targets
 from tests.aims import FULLER, SHIFTED, problem, small
 from tests.formula_ships import OUTPUTS, PARENT, UNITS, Formula, FormulaShip

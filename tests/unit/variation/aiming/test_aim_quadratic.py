@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import nnls
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.aiming.broyden_update import no_curvature, updated_curvature
+from assoc_hull.variation.aiming.newton_iteration import no_curvature, updated_curvature
 from assoc_hull.variation.aiming.quadratic_program import Quadratic, least_squares_step, split
 
 

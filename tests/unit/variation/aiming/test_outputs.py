@@ -10,9 +10,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from assoc_hull.analysis.derivatives.curve_tangents import curve_tangents
-from assoc_hull.analysis.derivatives.given_motion import Moves
 from assoc_hull.analysis.derivatives.hydrostatic_derivatives import hydrostatic_derivatives
-from assoc_hull.analysis.derivatives.parameters import DRAUGHT, HEEL, TRIM, PointMove, Rates
+from assoc_hull.analysis.derivatives.parameters import DRAUGHT, HEEL, TRIM, Moves, PointMove, Rates
 from assoc_hull.analysis.derivatives.reused_layout import flotation_at_points
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError

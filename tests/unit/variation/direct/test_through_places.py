@@ -10,8 +10,8 @@ import pytest
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import examples
 from assoc_hull.model.objects import Curve, Line

@@ -9,8 +9,8 @@ from scipy.interpolate import BPoly, CubicSpline
 from assoc_hull.edit.space_map import affine
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray
-from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.variation.features.redrawn_circles import (
     SpaceCircle,
     redraw_circle,

@@ -10,8 +10,8 @@ from numpy.testing import assert_allclose
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
-from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import evaluate
 from assoc_hull.variation.fields.bounded_functions import CUBIC, QUINTIC, Blend, BlendChain
 from assoc_hull.variation.fields.field import AffinePiece, Axis, StackedField, level_boundaries
 from assoc_hull.variation.fields.image_intersections import intersect_images, plane_source

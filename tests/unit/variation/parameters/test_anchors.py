@@ -18,7 +18,7 @@ from assoc_hull.errors import (
     WrongTypeError,
 )
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.model.tables import HullState, copy_state
 from assoc_hull.shipped import bulk_carrier_207k_form as form
 from assoc_hull.variation.fields.bounded_functions import BlendChain
