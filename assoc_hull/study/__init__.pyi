@@ -4,8 +4,8 @@ from typing import TypeAlias
 
 from assoc_hull.hull.hull import Hull
 from assoc_hull.hull.studies import Study as _Study
+from assoc_hull.study.design import grid as grid
+from assoc_hull.study.design import sample as sample
 from assoc_hull.study.pareto import pareto_front as pareto_front
-from assoc_hull.study.sampling import grid as grid
-from assoc_hull.study.sampling import sample as sample
 
 Study: TypeAlias = _Study[Hull]

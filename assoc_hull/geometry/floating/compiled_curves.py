@@ -2,9 +2,9 @@
 
 The tiles of a curve lie in rows, `rows` (24, t): the coefficients of x, y, z, x_v, y_v, z_v in 1,
 u, u^2, u^3. What runs over all tiles does so in short loops without decisions, which become vector
-instructions. The arithmetic is that of `coons`, `tiles`, `tile_intersections` and
-`waterplane_cuts`; sums have another order, so that values differ by rounding. In strips of sections
-x is taken as constant along a curve, as it is but for rounding.
+instructions. The arithmetic is that of `coons`, `tiles` and `waterplane_cuts`; sums have another
+order, so that values differ by rounding. In strips of sections x is taken as constant along a
+curve, as it is but for rounding.
 
 Examples
 --------

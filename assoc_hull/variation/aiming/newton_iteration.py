@@ -6,8 +6,9 @@ and solves J p = -r. Of several such steps it is the one that makes
     1/2 |mu + p|^2 + 1/2 p (sum_i lambda_i B_i) p
 
 least: the step of Newton's method for the least change that reaches the targets, with lambda the
-multipliers of the equations and B_i the second derivatives of r_i as far as they are known. With nothing known it is mu <- J' (J J')^-1 (J mu - r). Where no step solves the
-equations it is the one that makes |r|^2 least, to the same order.
+multipliers of the equations and B_i the second derivatives of r_i as far as they are
+known. With nothing known it is mu <- J' (J J')^-1 (J mu - r). Where no step solves the equations it
+is the one that makes |r|^2 least, to the same order.
 
 Second derivatives of misses, learnt from the exact first ones on the way.
 
