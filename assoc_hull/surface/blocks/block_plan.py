@@ -337,8 +337,9 @@ def _creased(
     whole: CellRegion, length: float, ends: Sequence[EndCut | None]
 ) -> tuple[list[BlockPlan], list[str]]:
     """Plan all blocks, cut along as many knuckle lines as can be; say why others are not."""
-    taken, notes = list[KnuckleCut](), list[str]()
-    knuckles = knuckle_cuts(whole)
+    taken = list[KnuckleCut]()
+    knuckles, rounded = knuckle_cuts(whole)
+    notes = list(rounded)
     try:
         plans = _plans(whole, length, ends, ())
     except BadInputError:

@@ -61,6 +61,8 @@ _TURN = 3.0
 """A line at which half of the sections turn by less, degrees, is followed by a smooth surface, as
 the upper knuckle of the supply ship is: 0.7 there."""
 
+_ROUNDED = "{} is no crease of the surface, which rounds it: {}"
+
 
 @attrs.frozen(eq=False)
 class KnuckleCut:
@@ -126,24 +128,42 @@ def require_disc(region: CellRegion, name: str) -> None:
         )
 
 
-def knuckle_cuts(whole: CellRegion) -> tuple[KnuckleCut, ...]:
-    """Find the knuckle lines that run from end to end of a half hull, from the deck down."""
+def knuckle_cuts(whole: CellRegion) -> tuple[tuple[KnuckleCut, ...], tuple[str, ...]]:
+    """Find the knuckle lines that run from end to end of a half hull, from the deck down.
+
+    Notes tell of those that do not, or at which sections hardly turn: the surface rounds them.
+    """
     graph = whole.graph
     names = dict.fromkeys(graph.net.name[c] for c in np.flatnonzero(graph.net.knuckle).tolist())
-    found = list[tuple[int, KnuckleCut]]()
+    found, notes = list[tuple[int, KnuckleCut]](), list[str]()
     for name in names:
         half = _from_end_to_end(whole, name)
-        if half is not None and _turns_sections(graph, half, name):
+        if half is None:
+            if len(_inner_edges(whole, name)):
+                notes.append(
+                    _ROUNDED.format(name, "it does not run from end to end of the half hull")
+                )
+        elif (turn := _turn_of_sections(graph, half, name)) < _TURN:
+            why = f"sections turn by {turn:.2g} degrees there, creases are cut from {_TURN:g} on"
+            why = why if turn else "not every section has a knuckle where it crosses it"
+            notes.append(_ROUNDED.format(name, why))
+        else:
             above = whole.with_half([half], int(half[0]) ^ 1)
             found.append((0 if above is None else int(above.inside.sum()), KnuckleCut(name, half)))
-    return tuple(cut for _, cut in sorted(found, key=lambda each: (each[0], each[1].name)))
+    ordered = sorted(found, key=lambda each: (each[0], each[1].name))
+    return tuple(cut for _, cut in ordered), tuple(notes)
+
+
+def _inner_edges(whole: CellRegion, name: str) -> IntArray:
+    """Give the edges of a line that lie within the half hull, not along its border."""
+    curves = [c for c, each in enumerate(whole.graph.net.name) if each == name]
+    return np.flatnonzero(np.isin(whole.graph.curve, curves) & whole.interior)
 
 
 def _from_end_to_end(whole: CellRegion, name: str) -> IntArray | None:
     """Give the half-edges of a knuckle line from the aft border to the fore one, or None."""
     graph = whole.graph
-    curves = [c for c, each in enumerate(graph.net.name) if each == name]
-    own = np.flatnonzero(np.isin(graph.curve, curves) & whole.interior)
+    own = _inner_edges(whole, name)
     ends = whole.on_loop & ~_deck_nodes(graph)
     for first in np.unique(graph.edge[own]).tolist():
         if not ends[first]:
@@ -182,8 +202,11 @@ def _deck_nodes(graph: NetGraph) -> NDArray[np.bool_]:
     return found
 
 
-def _turns_sections(graph: NetGraph, half: IntArray, name: str) -> bool:
-    """Tell whether every section that a line crosses has a knuckle there, and half a sharp one."""
+def _turn_of_sections(graph: NetGraph, half: IntArray, name: str) -> float:
+    """Give by how much the sections that a line crosses turn there, the median, degrees.
+
+    Nil where no section crosses it, or one has no knuckle there.
+    """
     net, batch = graph.net, graph.net.batch
     own = np.array([each == name for each in net.name])
     nodes = graph.edge.ravel()[half[1:]]
@@ -197,10 +220,10 @@ def _turns_sections(graph: NetGraph, half: IntArray, name: str) -> bool:
         row = int(rows[np.abs(batch.knot[rows] - t).argmin()])
         # Derivatives differ at knuckles only; elsewhere they are the same number.
         if (batch.leave[row] == batch.arrive[row]).all():
-            return False
+            return 0.0
         sine = np.linalg.norm(np.cross(batch.leave[row], batch.arrive[row]))
         turns.append(float(np.degrees(np.arctan2(sine, batch.leave[row] @ batch.arrive[row]))))
-    return bool(turns) and float(np.median(turns)) >= _TURN
+    return float(np.median(turns)) if turns else 0.0
 
 
 def layers_between(

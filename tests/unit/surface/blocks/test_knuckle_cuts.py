@@ -64,7 +64,13 @@ def test_it_is_written_without_being_accepted(case: Case, tmp_path: Path) -> Non
 
 def cuts_of(net: CurveNet) -> list[str]:
     """Name the knuckle lines along which a net is cut."""
-    return [cut.name for cut in knuckle_cuts(CellRegion.whole(sound_cells(net)))]
+    cuts, _ = knuckle_cuts(CellRegion.whole(sound_cells(net)))
+    return [cut.name for cut in cuts]
+
+
+def told_of(net: CurveNet) -> str:
+    """Give what is told of knuckle lines along which a net is not cut."""
+    return "\n".join(knuckle_cuts(CellRegion.whole(sound_cells(net)))[1])
 
 
 def test_a_chine_that_dies_out_is_no_crease(tmp_path: Path) -> None:
@@ -75,6 +81,9 @@ def test_a_chine_that_dies_out_is_no_crease(tmp_path: Path) -> None:
     assert cuts_of(net) == []
     plans = block_plans(sound_cells(net), hull.particulars.length)
     assert [plan.name for plan in plans] == ["body"]
+    (told,) = plans[0].notes
+    assert "knuckle 1 is no crease" in told
+    assert "from end to end" in told
 
 
 def test_a_line_at_which_a_section_is_smooth_is_no_crease(tmp_path: Path) -> None:
@@ -86,6 +95,7 @@ def test_a_line_at_which_a_section_is_smooth_is_no_crease(tmp_path: Path) -> Non
     leave[row] = net.batch.arrive[row]
     smooth = attrs.evolve(net, batch=attrs.evolve(net.batch, leave=leave))
     assert cuts_of(smooth) == []
+    assert "not every section has a knuckle where it crosses it" in told_of(smooth)
 
 
 def test_a_knuckle_of_less_than_a_degree_stays_within_its_block() -> None:
@@ -93,3 +103,5 @@ def test_a_knuckle_of_less_than_a_degree_stays_within_its_block() -> None:
     net = gather_net(ah.examples.prelikon_ship().state)
     assert net.knuckle.any()
     assert cuts_of(net) == []
+    assert "upper knuckle is no crease" in told_of(net)
+    assert "sections turn by 0." in told_of(net)
