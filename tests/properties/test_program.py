@@ -20,6 +20,7 @@ import assoc_hull as ah
 from assoc_hull.edit.drag import Drag, Live
 from assoc_hull.edit.published_program import published_program
 from assoc_hull.geometry.curves import EndKind, FloatArray, SplineBatch
+from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.model.feature_geometry import off_shapes, places_off
 from assoc_hull.model.index import build_index
 from assoc_hull.model.kinds import Role, Sort
@@ -492,6 +493,25 @@ def test_a_curve_that_is_not_finite_in_any_one_coordinate_is_not_made(
         with np.errstate(all="ignore"):
             run = runner.run(before.copy(), before, NONE, NONE, np.array([curve]))
         assert (run.doubt, run.where) == (Doubt.NOT_MADE, curve), axis
+
+
+def test_a_run_counts_the_folds_that_the_order_along_a_curve_tells() -> None:
+    """None and several, at ends, at smooth points and at both sides of knuckles."""
+    pytest.importorskip("numba")
+    from assoc_hull.model.program.compiled_program import _folds
+
+    compiled: Callable[..., int] = _folds.py_func  # type: ignore[attr-defined]
+    rng, counts = np.random.default_rng(3), set[int]()
+    for number in range(200):
+        size, rough = int(rng.integers(2, 9)), 10.0 ** rng.uniform(-1.0, 0.5)
+        steps, leave = np.array([1.0, 0.0, 0.0]) + rough * rng.normal(size=(2, size, 3))
+        arrive = np.where(rng.random((size, 1)) < 0.3, leave + rough * rng.normal(size=3), leave)
+        xyz, knot = np.cumsum(steps, axis=0), np.arange(float(size))
+        batch = SplineBatch(np.array([0, size]), knot, xyz, leave, arrive)
+        folds = compiled(np.concatenate([xyz.T, leave.T, arrive.T]), size)
+        assert folds == len(curve_folds(batch)), number
+        counts.add(folds)
+    assert counts >= {0, 1, 2, 3}
 
 
 def test_nil_has_a_sign_for_both_arithmetics() -> None:
