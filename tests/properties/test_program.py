@@ -19,7 +19,8 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.edit.drag import Drag, Live
 from assoc_hull.edit.published_program import published_program
-from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.curves import EndKind, FloatArray, SplineBatch
+from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.model.feature_geometry import off_shapes, places_off
 from assoc_hull.model.index import build_index
 from assoc_hull.model.kinds import Role, Sort
@@ -249,6 +250,24 @@ def test_curves_that_lack_a_meeting_go_the_full_way(role: str, side: int, shippe
     assert lacked
 
 
+def test_curves_whose_watched_crossings_went_with_a_line_go_by_the_program(
+    shipped: Shipped,
+) -> None:
+    """Crossings that are gone stay in the tables, but nothing is to be measured there."""
+    hull = shipped("bulk_carrier")
+    table = hull.state.rows
+    watched = table.alive.data & (table.sort.data == Sort.CROSSING)
+    rows = np.flatnonzero(watched & (table.role.data == Role.WATCHED))
+    with hull.edit("fewer") as edit:
+        edit.remove_line(str(table.key[int(rows[0])]).split(" x ")[0])
+    left = rows[hull.state.rows.alive[rows]]
+    found = program_of(hull)
+    assert found is not None
+    assert 0 < len(left) < len(rows)
+    assert found.program.watch.tolist() == left.tolist()
+    assert not found.program.unsure.any()
+
+
 @pytest.mark.parametrize("arithmetic", ["numpy", "compiled"])
 def test_points_are_off_a_feature_by_what_it_says_itself(arithmetic: str, shipped: Shipped) -> None:
     """Whichever of its points has moved; a run has a doubt of those that are off, and no other."""
@@ -453,6 +472,46 @@ def test_latent_meetings_that_come_as_near_as_may_be_are_doubted(
         runner = runner_in(arithmetic, attrs.evolve(program, near=near, **arrays))
         run = runner.run(before.copy(), before, NONE, NONE, np.arange(program.curves))
         assert run.doubt is doubt
+
+
+@pytest.mark.parametrize("arithmetic", ["numpy", "compiled"])
+def test_a_curve_that_is_not_finite_in_any_one_coordinate_is_not_made(
+    arithmetic: str, shipped: Shipped
+) -> None:
+    """As by a curvature at its end that is too large for a number when it meets the chord."""
+    found = program_of(shipped("series60_70"))
+    assert found is not None
+    program, before = found.program, found.values
+    curve = int(np.argmax(before.knot[program.start[:-1] + 1]))
+    for axis in range(3):
+        kind, vector = program.end_kind.copy(), program.end_vector.copy()
+        kind[curve, 0] = EndKind.CURVATURE
+        vector[curve, 0] = 1.7e308 * np.eye(3)[axis]
+        for each in (kind, vector):
+            each.setflags(write=False)
+        runner = runner_in(arithmetic, attrs.evolve(program, end_kind=kind, end_vector=vector))
+        with np.errstate(all="ignore"):
+            run = runner.run(before.copy(), before, NONE, NONE, np.array([curve]))
+        assert (run.doubt, run.where) == (Doubt.NOT_MADE, curve), axis
+
+
+def test_a_run_counts_the_folds_that_the_order_along_a_curve_tells() -> None:
+    """None and several, at ends, at smooth points and at both sides of knuckles."""
+    pytest.importorskip("numba")
+    from assoc_hull.model.program.compiled_program import _folds
+
+    compiled: Callable[..., int] = _folds.py_func  # type: ignore[attr-defined]
+    rng, counts = np.random.default_rng(3), set[int]()
+    for number in range(200):
+        size, rough = int(rng.integers(2, 9)), 10.0 ** rng.uniform(-1.0, 0.5)
+        steps, leave = np.array([1.0, 0.0, 0.0]) + rough * rng.normal(size=(2, size, 3))
+        arrive = np.where(rng.random((size, 1)) < 0.3, leave + rough * rng.normal(size=3), leave)
+        xyz, knot = np.cumsum(steps, axis=0), np.arange(float(size))
+        batch = SplineBatch(np.array([0, size]), knot, xyz, leave, arrive)
+        folds = compiled(np.concatenate([xyz.T, leave.T, arrive.T]), size)
+        assert folds == len(curve_folds(batch)), number
+        counts.add(folds)
+    assert counts >= {0, 1, 2, 3}
 
 
 def test_nil_has_a_sign_for_both_arithmetics() -> None:

@@ -227,6 +227,23 @@ def test_what_only_the_first_sub_step_reaches_is_kept_like_the_rest(shipped: Shi
     assert several >= 4
 
 
+def test_numbers_read_after_a_pull_and_its_undo_are_those_of_the_tables(shipped: Shipped) -> None:
+    """The structure stays, so most are known; points that ride do so from other places then."""
+    hull = shipped("series60_70")
+    first = published_program(hull.document)
+    assert first is not None
+    with by_program(Count(), always=False), hull.edit("carry") as edit:
+        edit.pull("WL 0.58 x ST 2", 0.01, (20.0, 8.0))
+    second = published_program(hull.document)
+    assert second is not None
+    assert second.program is first.program
+    odd = second.values.anchor_from != first.values.anchor_from
+    assert np.count_nonzero(odd.any(axis=(1, 2))) > 5
+    assert_numbers_are_those_of_the_tables(hull)
+    hull.undo()
+    assert_numbers_are_those_of_the_tables(hull)
+
+
 @pytest.mark.parametrize("always", [True, False], ids=["by the program", "the full way"])
 def test_where_a_segment_is_thought_to_be_changes_no_bit(always: bool, shipped: Shipped) -> None:
     """Gaps are measured alike whatever segments the search for their parameters begins at."""

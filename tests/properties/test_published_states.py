@@ -29,7 +29,7 @@ from assoc_hull.graph.table import (
     vectors,
 )
 from assoc_hull.model.definition.fingerprint import fingerprint
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import HullState, copy_state
 from tests.conftest import Shipped
 from tests.long_forms import LONG
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
@@ -167,6 +167,17 @@ def insert_and_fail(hull: ah.Hull, made: list[ah.Point], before: object, count: 
         thread.join()
         assert seen == [False]
         edit.move("WL 2.5 x ST 7", y=1e9)
+
+
+def test_points_written_without_an_edit_are_published_and_leave_earlier_states_alone() -> None:
+    """The number of the state stays then, so the columns tell whether anything was written."""
+    state = copy_state(ah.examples.wigley().state)
+    before, row = state.published(), int(state.live("rows")[5])
+    assert state.published() is before
+    place = before.rows.xyz[row].copy()
+    state.rows.xyz.put(np.array([row]), place[None] + 1.0)
+    assert state.published().rows.xyz[row].tolist() == (place + 1.0).tolist()
+    assert before.rows.xyz[row].tolist() == place.tolist()
 
 
 def test_an_edit_of_nothing_but_the_name_is_published() -> None:

@@ -124,6 +124,28 @@ def test_what_was_shared_is_given_again_until_something_is_written(what: str) ->
     assert column.share(after) is after
 
 
+@pytest.mark.parametrize("what", ["size", "name"])
+def test_a_column_equals_what_was_shared_of_it_until_something_is_written(what: str) -> None:
+    """And again when all is taken back; what nobody has noted is never taken back."""
+    table, journal = Named(), Journal()
+    table.resize(3)
+    column = table.columns[what]
+    before = column.share()
+    assert column.equals(before)
+    if what == "size":
+        journal.put(table.size, [1], [2.0])
+    else:
+        journal.set(table.name, [1], ["b"])
+    assert not column.equals(before)
+    journal.undo()
+    assert column.equals(before)
+    if what == "size":
+        table.size.store[1] = 3.0
+    else:
+        table.name.store[1] = "c"
+    assert not column.equals(before)
+
+
 def test_an_interrupt_at_any_line_leaves_a_column_that_shows_what_is_written() -> None:
     """The array that is written to is the one that is shown, and what was shared stays."""
     lines, first = inspect.getsourcelines(Column._own)

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from unittest import mock
 
+import attrs
 import numpy as np
 import pytest
 
@@ -13,6 +14,7 @@ from assoc_hull.edit.published_program import published_program
 from assoc_hull.errors import AssocHullError
 from assoc_hull.model.program import engine
 from assoc_hull.model.program.structure import Program, Values
+from assoc_hull.model.tables import copy_state
 from tests.net_strategies import fresh
 
 pytest.importorskip("numba")
@@ -63,6 +65,26 @@ def test_normals_are_those_of_numpy(name: str) -> None:
         free = one.free()
         with hull.edit("pull") as edit:
             edit.pull(state.rows.key[int(free[len(free) // 2])], 1e-3, (20.0, 5.0))
+
+
+@pytest.mark.parametrize("depth", [1.0, 100.0], ids=["above the depth", "below it"])
+def test_normals_that_no_curve_turns_are_turned_away_from_the_deck_as_in_numpy(
+    depth: float,
+) -> None:
+    """Where all lines are boundaries; the deck is at the highest point, or at the depth."""
+    state = copy_state(fresh(3).state)
+    told = FieldContext(state, False).normals(state.live("rows"))
+    state.lines.boundary.store[:] = 0
+    state.settings.particulars.store[0] = attrs.evolve(state.particulars, depth=depth)
+    hull = ah.Hull(state)
+    state, numbers = hull.state, numbers_of(hull)
+    rows = state.live("rows")
+    assert state.rows.xyz.data[rows, 2].max() > 1.0
+    one, other = FieldContext(state, False), FieldContext(state, False, numbers)
+    normals = one.normals(rows)
+    assert other.compiled() is not None
+    assert other.normals(rows).tobytes() == normals.tobytes()
+    assert ((normals == -told) & (told != 0.0)).any()
 
 
 @pytest.mark.parametrize("name", HULLS)

@@ -117,6 +117,21 @@ def test_a_pull_of_a_point_that_slides_along_the_hull_says_so() -> None:
     assert pulled(hull, point, 0.02)[1] == pytest.approx(0.02, rel=0.01)
 
 
+def test_two_large_pulls_far_apart_go_all_the_way_in_one_edit() -> None:
+    """Each sub-step takes an equal part of both: nobody looks where one of several has come."""
+    hull = ah.examples.wigley()
+    points = [hull.points[name] for name in ("WL 2.5 x ST 4", "WL 2.5 x ST 14")]
+    normals = hull_normals(hull.state)[[point.row for point in points]]
+    before = np.array([place_of(hull, point) for point in points])
+    assert hull.state.tolerances.substep < 0.3 / 2.0
+    with hull.edit("both", gaps="report") as edit:
+        for point in points:
+            edit.pull(point, 0.3, (12.0, 3.0))
+    moved = np.array([place_of(hull, point) for point in points]) - before
+    # The normal turns on the way, and the field of each goes with it.
+    assert (moved * normals).sum(axis=1) == pytest.approx([0.3, 0.3], rel=0.02)
+
+
 def test_pulls_of_several_points_add() -> None:
     """Where two fields overlap neither point is asked to be where one of them alone pulls."""
     hull = fresh(4)
