@@ -460,6 +460,8 @@ def _boundaries(
             continue
         if kind == RimKind.PROFILE:
             chains = [without_loops(each, gaps.join, book) for each in chains]
+        elif kind == RimKind.DECK:
+            chains = open_pieces(chains, name, book)
         length = [_length(each) for each in chains]
         longest = max(length)
         kept = [each for each, size in zip(chains, length, strict=True) if size > 0.02 * longest]
@@ -468,6 +470,25 @@ def _boundaries(
             book.repair("short piece", name, what, len(chains) - len(kept))
         found.append(SliceLine("boundary", name, float("nan"), tuple(_forward(kept, kind))))
     return found
+
+
+def open_pieces(pieces: list[LinePiece], name: str, book: Notebook) -> list[LinePiece]:
+    """Leave out closed pieces of the deck edge of a half, which runs from end to end."""
+    closed = [each for each in pieces if _is_loop(each)]
+    if not closed or len(closed) == len(pieces):
+        return pieces
+    longest = max(closed, key=_length)
+    x, y, z = longest.points[0].tolist()
+    what = (
+        f"{len(closed)} closed pieces left out, the longest {_length(longest):.3g} m at "
+        f"({x:.4g}, {y:.4g}, {z:.4g}) m: a hole of the mesh, or a body that lies on the deck"
+    )
+    book.suspect("closed piece", name, what, len(closed))
+    return [each for each in pieces if not _is_loop(each)]
+
+
+def _is_loop(piece: LinePiece) -> bool:
+    return piece.closed or bool((piece.points[0] == piece.points[-1]).all())
 
 
 _LOOPS = 0.02

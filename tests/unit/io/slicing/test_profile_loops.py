@@ -9,7 +9,7 @@ from assoc_hull.geometry.surfaces.triangles import Triangles, grid_triangles
 from assoc_hull.io.lines.slices import LinePiece
 from assoc_hull.io.mesh.frame import half_side
 from assoc_hull.io.reports import Notebook
-from assoc_hull.io.slicing.mesh_lines import without_loops
+from assoc_hull.io.slicing.mesh_lines import open_pieces, without_loops
 
 
 def _half(past: float) -> Triangles:
@@ -56,3 +56,18 @@ def test_a_clean_profile_comes_back_as_it_is() -> None:
     """Points closer than the width of joins are no loops."""
     line = LinePiece(np.column_stack([np.linspace(0, 10, 1001), np.zeros(1001), np.zeros(1001)]))
     assert without_loops(line, 0.06, Notebook()) is line
+
+
+def test_a_closed_piece_of_the_deck_edge_is_left_out_and_told() -> None:
+    """A body that lies on the deck leaves loops along it: the edge of a half runs end to end."""
+    edge = LinePiece(np.column_stack([np.linspace(0, 100, 51), np.full(51, 5.0), np.full(51, 8.0)]))
+    way = np.linspace(0.0, 2.0 * np.pi, 13)
+    ring = np.column_stack([40.0 + np.cos(way), 5.0 + 0.0 * way, 8.0 + 0.1 * np.sin(way)])
+    ring[-1] = ring[0]
+    book = Notebook()
+    assert open_pieces([LinePiece(ring), edge], "deck edge", book) == [edge]
+    (note,) = book.report().suspicions
+    assert note.kind == "closed piece"
+    assert "(41, 5, 8) m" in note.what
+    alone = [LinePiece(ring)]
+    assert open_pieces(alone, "deck edge", Notebook()) is alone  # nothing would be left
