@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
-from assoc_hull.analysis.fairness import box_solver
-from assoc_hull.analysis.fairness.box_solver import solve_in_box
+from assoc_hull.analysis.fairness import fair_solution
+from assoc_hull.analysis.fairness.fair_solution import solve_in_box
 from assoc_hull.geometry.curves import FloatArray
 
 
@@ -68,7 +68,7 @@ def test_what_is_given_where_sets_run_out_belongs_together(
     bound = rng.uniform(0.05, 1.0, size) * (rng.random(size) > 0.1)
     with pytest.MonkeyPatch.context() as patch:
         for name, value in (("_SETS", sets), ("_PATIENCE", patience), ("_STEPS", steps)):
-            patch.setattr(box_solver, name, value)
+            patch.setattr(fair_solution, name, value)
         found = solve_in_box(csr_array(dense), gradient, -bound, bound, rng.integers(-1, 2, size))
     assert (np.abs(found.values) <= bound).all()
     assert (found.values == found.side * bound)[found.side != 0].all()
@@ -90,15 +90,15 @@ def test_sets_that_run_out_without_a_ring_are_followed_by_the_way_from_within(se
     dense = second.T @ second + 1e-3 * np.eye(40)
     gradient, bound = np.sin(np.arange(40.0)), np.full(40, 0.3)
     least = solve_in_box(csr_array(dense), gradient, -bound, bound)
-    came, within = list[int](), box_solver._Box.from_within
+    came, within = list[int](), fair_solution._Box.from_within
 
-    def counted(box: box_solver._Box) -> FloatArray:
+    def counted(box: fair_solution._Box) -> FloatArray:
         came.append(1)
         return within(box)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(box_solver, "_SETS", sets)
-        patch.setattr(box_solver._Box, "from_within", counted)
+        patch.setattr(fair_solution, "_SETS", sets)
+        patch.setattr(fair_solution._Box, "from_within", counted)
         found = solve_in_box(csr_array(dense), gradient, -bound, bound)
     assert came == [1]
     assert (found.values == least.values).all()

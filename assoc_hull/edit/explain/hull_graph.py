@@ -1,26 +1,128 @@
-"""The graph of a hull, and the parts of it that are asked for: around an object, by one edit."""
+"""The graph of a hull: what is computed from what, whole or around some of its objects.
+
+Filters of an exported graph: nodes within some steps, and some of the nodes.
+
+The live structure is arrays; a networkx graph is only a view of it for people and tools.
+What is kept stays in the order of the graph it is taken from. The text forms of a graph
+stand in `assoc_hull.graph.graph_text`.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal
+from collections.abc import (
+    Callable,
+    Collection,
+    Iterable,
+    Mapping,
+)
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from assoc_hull.arguments import choice, shown
 from assoc_hull.edit.dirty_objects import Dirty
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain.causes import Thing, step_numbered
 from assoc_hull.edit.modifications.definitions import definition_meant
-from assoc_hull.errors import ForeignPointError, WrongTypeError
-from assoc_hull.graph import graph_filter as filters
+from assoc_hull.errors import ForeignPointError, UnknownNameError, WrongTypeError
 from assoc_hull.model.form_definition import FormDefinition
 from assoc_hull.model.object_graph import object_graph, point_id
-from assoc_hull.model.objects import Crossing, Line, Point, handle
+from assoc_hull.model.objects import (
+    Crossing,
+    Line,
+    Point,
+    handle,
+)
 from assoc_hull.model.tables import HullState
 
 if TYPE_CHECKING:
     import networkx
 
-__all__ = ["ONLY", "OnlyName", "changed_by", "graph_of"]
+__all__ = [
+    "ONLY",
+    "Any_Graph",
+    "G",
+    "OnlyName",
+    "changed_by",
+    "graph_of",
+    "nodes_within",
+    "subgraph",
+]
+
+if TYPE_CHECKING:
+    import networkx
+
+    Any_Graph = networkx.DiGraph[str]
+
+__all__ = ["nodes_within", "subgraph"]
+
+G = TypeVar("G", bound="Any_Graph")
+
+
+def nodes_within(
+    graph: Any_Graph, nodes: Iterable[str], up: int = 1, down: int = 1
+) -> frozenset[str]:
+    """Name the nodes within some hops of any of some nodes, these among them.
+
+    Parameters
+    ----------
+    graph : networkx.DiGraph or MultiDiGraph
+        The graph.
+    nodes : iterable of str
+        Where to begin.
+    up, down : int
+        Most hops against and along the edges; a way does not turn round.
+
+    Raises
+    ------
+    UnknownNameError
+        No such node.
+    """
+    start = frozenset(nodes)
+    for node in sorted(start):
+        if node not in graph:
+            raise UnknownNameError("node", node, tuple(graph))
+    kept = set(start)
+    for hops, step in ((up, graph.predecessors), (down, graph.successors)):
+        reached, front = set(start), set(start)
+        while front and hops > 0:
+            front = {found for each in front for found in step(each)} - reached
+            reached |= front
+            hops -= 1
+        kept |= reached
+    return frozenset(kept)
+
+
+def subgraph(
+    graph: G,
+    nodes: Collection[str],
+    edge: Callable[[Mapping[str, object]], bool] | None = None,
+) -> G:
+    """Keep these nodes and the edges among them; names that are no nodes are passed over.
+
+    Parameters
+    ----------
+    graph : networkx.DiGraph or MultiDiGraph
+        The graph.
+    nodes : collection of str
+        The nodes.
+    edge : callable or None
+        Tells by its attributes whether an edge is kept; None keeps all.
+
+    Examples
+    --------
+    >>> import networkx
+    >>> from assoc_hull.edit.explain.hull_graph import subgraph
+    >>> list(subgraph(networkx.DiGraph([("a", "b"), ("b", "c")]), {"c", "b"}))
+    ['b', 'c']
+    """
+    found = graph.__class__()
+    found.add_nodes_from((node, data) for node, data in graph.nodes(data=True) if node in nodes)
+    found.add_edges_from(
+        (tail, head, data)
+        for tail, head, data in graph.edges(data=True)
+        if tail in found and head in found and (edge is None or edge(data))
+    )
+    return found
+
 
 OnlyName = Literal["two-way", "one-way", "latent", "changed", "dirty"]
 ONLY: tuple[OnlyName, ...] = ("two-way", "one-way", "latent", "changed", "dirty")
@@ -81,14 +183,12 @@ def graph_of(
             found.nodes[node]["dirty"] = cause
     kept = set(found) if only != "dirty" else set(found) & dirty.keys()
     if around is not None:
-        kept &= filters.nodes_within(
-            found, _nodes(document.state.published(), around, found), *hops
-        )
+        kept &= nodes_within(found, _nodes(document.state.published(), around, found), *hops)
     if changed is not None:
         kept &= changed
     if only in ("two-way", "one-way", "latent"):
         found = _linked(found, only)
-    return filters.subgraph(found, kept) if len(kept) < len(found) else found
+    return subgraph(found, kept) if len(kept) < len(found) else found
 
 
 def _dirty(document: Document) -> dict[str, str]:
@@ -123,7 +223,7 @@ def _linked(found: networkx.MultiDiGraph[str], kind: OnlyName) -> networkx.Multi
             nodes |= {tail, head}
             if data["kind"] == "touch actual":
                 nodes.update(found.successors(head))
-    return filters.subgraph(found, nodes, kept)
+    return subgraph(found, nodes, kept)
 
 
 def _nodes(

@@ -3,7 +3,7 @@
 `PiecewiseCurves` is what the criteria of fairness ask of any curve, whatever it is made of, at
 places u from 0 to 1 on each piece. `SplinePieces` are the composite splines of the kernel,
 `GraphPieces` a graph y(x) of scipy; chains of arcs, chord splines and elastica are given so by
-`assoc_hull.analysis.fairness.classical_pieces`. `searched_distance` gives distances where no
+`assoc_hull.fairing.line_fairness`. `searched_distance` gives distances where no
 formula does.
 """
 

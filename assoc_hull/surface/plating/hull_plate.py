@@ -21,8 +21,14 @@ from assoc_hull.surface.plating.hull_shell import NODES, HullShell
 from assoc_hull.surface.plating.options import PlateOptions
 from assoc_hull.surface.plating.plate import radius_of
 from assoc_hull.surface.plating.plate_areas import Tally, patches_in
-from assoc_hull.surface.plating.plate_class import PlateShares, suggestion_key
-from assoc_hull.surface.plating.roll_axis import COHERENT, Rulings, roll_axis, rulings
+from assoc_hull.surface.plating.plate_class import (
+    COHERENT,
+    PlateShares,
+    Rulings,
+    roll_axis,
+    rulings,
+    suggestion_key,
+)
 
 __all__ = [
     "COARSE",

@@ -19,8 +19,15 @@ from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.plating.curvature_nodes import CurvatureNodes, curvature_nodes
 from assoc_hull.surface.plating.development import Development, development
 from assoc_hull.surface.plating.options import PlateOptions
-from assoc_hull.surface.plating.plate_class import PlateShares, shares_of, suggestion_key
-from assoc_hull.surface.plating.roll_axis import COHERENT, Rulings, roll_axis, rulings
+from assoc_hull.surface.plating.plate_class import (
+    COHERENT,
+    PlateShares,
+    Rulings,
+    roll_axis,
+    rulings,
+    shares_of,
+    suggestion_key,
+)
 from assoc_hull.surface.regions.level_lines import RegionAreas
 from assoc_hull.surface.regions.options import ZeroBand
 from assoc_hull.surface.regions.result import RegionResult

@@ -8,8 +8,7 @@ from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.plating.curvature_nodes import CurvatureNodes, curvature_nodes
 from assoc_hull.surface.plating.plate import plate_axes, plate_extents, seam_lengths
-from assoc_hull.surface.plating.plate_class import flat_share
-from assoc_hull.surface.plating.roll_axis import RollAxis, roll_axis, rulings
+from assoc_hull.surface.plating.plate_class import RollAxis, flat_share, roll_axis, rulings
 from tests import bent_plates
 from tests.curved_patches import nets, patch
 

@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.explain.hull_graph import changed_by, graph_of
+from assoc_hull.edit.explain.hull_graph import changed_by, graph_of, nodes_within
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, UnknownNameError
-from assoc_hull.graph.graph_filter import nodes_within
 from assoc_hull.graph.graph_text import FORMATS, graph_text
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import resolve_address

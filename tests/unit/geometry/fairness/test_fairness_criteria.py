@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.interpolate import CubicSpline, PPoly
 
-from assoc_hull.analysis.fairness.classical_pieces import (
+from assoc_hull.errors import GeometryError
+from assoc_hull.fairing.line_fairness import (
     ArcFairnessPieces,
     ElasticaFairnessPieces,
     chord_spline_pieces,
 )
-from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.chord_spline import ChordSpline
 from assoc_hull.geometry.classical.circular_arcs import PlaneArcs
 from assoc_hull.geometry.classical.elastica import fit_elastica
