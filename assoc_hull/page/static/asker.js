@@ -109,7 +109,7 @@ export class Asker {
   /** A refusal stands where it was asked; that of a ghost that was taken away nowhere. @param {{id: number, text: string}} message */
   problem(message) {
     if (!message.id || message.id !== this.asked) return message.id > 0 && message.id === this.ghost;
-    this.words.textContent = message.text;
+    this.words.textContent = this.page.store.said(message.text);
     return true;
   }
 

@@ -224,7 +224,7 @@ export class Hand {
     if (!mine && !made) return false;
     this.asked.delete(message.seq);
     const held = this.store.held, row = held?.row ?? this.committing?.row ?? null;
-    const text = reasonWords(message.reasons, held?.how === "pull"), place = held ? held.place : row === null ? null : [...(this.store.places.get(row) ?? [])];
+    const text = this.store.said(reasonWords(message.reasons, held?.how === "pull")), place = held ? held.place : row === null ? null : [...(this.store.places.get(row) ?? [])];
     const all = message.reasons.join("\n");
     this.store.refusal = {text, all, row, place, named: this.store.net?.named(all) ?? []};
     if (made) {

@@ -123,25 +123,25 @@ export class Page {
       hand.done(message);
       for (const each of this.panel.askers) each.done(message);
       store.last = {...message, drawn: store.drawn, state: store.state};
-      this.say(`${message.name}: ${count(message.relofted, "curve")} followed.`);
+      this.say(`${store.said(message.name)}: ${count(message.relofted, "curve")} followed.`);
       store.changed("panel");
       if (!this.making) this.keys.resume();
     } else if (message.t === "hold") {
       store.theirs = message.row === null ? null : {author: message.author, row: message.row, frame: null};
-      if (store.theirs) this.speaker.say(`${message.author} holds ${store.net?.points.get(message.row)?.name ?? "a point"}`);
+      if (store.theirs) this.speaker.say(`${message.author} holds ${store.said(store.net?.points.get(message.row)?.name ?? "a point")}`);
       store.changed("overlay", "panel");
     } else if (message.t === "theirs") {
       store.last = {...message, drawn: store.drawn, state: store.state};
       store.changed("panel");
-      this.speaker.say(`${message.author} has made: ${message.name}`);
+      this.speaker.say(`${message.author} has made: ${store.said(message.name)}`);
     } else if (message.t === "answer") {
-      if (message.id === this.turning) this.say(this.back ? `Taken back: ${store.history.redo}.` : `Made again: ${store.history.undo}.`);
+      if (message.id === this.turning) this.say(store.said(this.back ? `Taken back: ${store.history.redo}.` : `Made again: ${store.history.undo}.`));
       this.panel.answer(message);
     }
     else if (message.t === "problem") {
       if (!this.panel.askers.some((each) => each.problem(message))) {
         hand.problem(message);
-        store.problem = message.text;
+        store.problem = store.said(message.text);
         store.changed("panel", "overlay");
       }
     }
@@ -150,7 +150,7 @@ export class Page {
 
   /** An edit that was typed is refused: said at the point. @param {any} message */
   #refusedHere(message) {
-    const {store} = this, row = store.selection.row, all = message.reasons.join("\n"), text = reasonWords(message.reasons);
+    const {store} = this, row = store.selection.row, all = message.reasons.join("\n"), text = store.said(reasonWords(message.reasons));
     store.refusal = {text, all, row, place: row === null ? null : [...(store.places.get(row) ?? [])], named: store.net?.named(all) ?? []};
     store.changed("overlay", "panel");
   }
