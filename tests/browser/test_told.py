@@ -132,3 +132,61 @@ def test_a_point_of_the_given_lines_is_named_as_a_person_says_it(
     hand.ask("p => p.undo()")
     expect(part(hand, "Edit")).to_contain_text(f"pull {said}")
     assert " @ " not in hand.page.locator("aside").inner_text()
+
+
+@pytest.mark.parametrize("after", ["Enter", "Tab"])
+def test_a_point_that_cannot_be_moved_says_why_however_fast_the_key_is_let_go(
+    open_page: Open, hull: ah.Hull, after: str
+) -> None:
+    """It names what drives the point, and what can be done here; no call of the library."""
+    hand = open_page(hull)
+    hand.ask("p => { p.find('ST 0 x profile'); p.use('move'); }")
+    hand.page.keyboard.press("ArrowUp")
+    hand.page.keyboard.press(after)
+    bubble = hand.page.locator(".bubble")
+    expect(bubble).to_contain_text("computed from profile")
+    expect(bubble).to_contain_text("choose the role “shared”")
+    expect(bubble).not_to_contain_text("edit.")
+    words = hand.ask(
+        "p => p.store.net.wayWords(p.store.net.points.get(p.store.net.find('ST 0 x profile')))"
+    )
+    assert words == "computed, on the profile: move a point of profile"
+
+
+def test_a_typed_pull_that_goes_too_far_tells_that_a_wider_radius_helps(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """As the one of the hand does; and while it is made, that it is being made."""
+    hand = open_page(hull)
+    hand.ask("(p, name) => { p.find(name); p.panel.acts.focus(); }", POINT)
+    hand.page.keyboard.type("900")
+    hand.page.keyboard.press("Enter")
+    expect(hand.page.locator(".bubble")).to_contain_text("Pull less, or widen the radius")
+    expect(hand.page.locator("footer")).not_to_contain_text("being made")
+    assert not hull.history
+
+
+def test_escape_takes_a_refused_drag_and_its_reason_away(open_page: Open, hull: ah.Hull) -> None:
+    """Once is enough; what was refused is not asked any more."""
+    hand = open_page(hull)
+    x, y = hand.press(POINT)
+    hand.page.mouse.move(x + 60.0, y)
+    bubble = hand.page.locator(".bubble")
+    expect(bubble).to_be_visible()
+    expect(bubble).not_to_contain_text("50 mm is 0.05")
+    hand.until("p => p.hand.inFlight === 0")
+    hand.page.keyboard.press("Escape")
+    expect(bubble).to_have_count(0)
+    hand.page.mouse.up()
+    hand.settled()
+    assert not hull.history
+
+
+def test_a_screen_that_is_touched_tells_of_fingers(open_page: Open, hull: ah.Hull) -> None:
+    """There is no wheel and no key on it."""
+    hand = open_page(hull, viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    foot = hand.page.locator("footer")
+    expect(foot).to_contain_text("two fingers zoom")
+    hand.ask("(p, name) => p.store.select(p.store.net.find(name), null)", POINT)
+    expect(foot).to_contain_text("press −1 mm and +1 mm")
+    expect(foot).not_to_contain_text("arrows")

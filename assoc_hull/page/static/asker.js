@@ -4,7 +4,7 @@ import {button, make, paragraph} from "./elements.js";
 import {reasonWords} from "./reasons.js";
 
 const PAUSE = 250; // ms: not at every step of a burst of edits
-const LONG = 700; // ms: an answer that takes longer can be stopped
+export const LONG = 700; // ms: an answer that takes longer can be stopped
 const ANSWERS = ["compare", "export", "fairness", "hydrostatics", "parameters", "preview", "vary", "window"];
 
 export class Asker {

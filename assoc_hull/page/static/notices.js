@@ -68,10 +68,12 @@ export function writeFoot(page) {
   page.root.classList.toggle("gone", gone);
   page.banner.hidden = !gone && !store.problem;
   page.banner.textContent = gone ? store.reason : store.problem ?? "";
+  const touch = matchMedia("(pointer: coarse)").matches; // there is neither wheel nor key
   const hints = store.shaping ? "Re-shape: click where the line is to pass, drag a place, Backspace removes the last, Enter shows the answer, Esc gives up"
-    : held?.how === "pull" ? "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
-    : held ? "Move: Alt is ten times finer, Shift locks an axis, Esc cancels"
-    : store.selection.row !== null ? "Drag, or use the arrows: 1 mm, Shift 10 mm, Alt 0.1 mm" : "Click a point or a line; drag the ground to pan, the wheel zooms";
+    : held?.how === "pull" ? touch ? "Pull: a second finger cancels; Fine is ten times finer" : "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
+    : held ? touch ? "Move: a second finger cancels; Fine is ten times finer" : "Move: Alt is ten times finer, Shift locks an axis, Esc cancels"
+    : store.selection.row !== null ? touch ? "Drag the point, or press −1 mm and +1 mm" : "Drag, or use the arrows: 1 mm, Shift 10 mm, Alt 0.1 mm"
+    : touch ? "Tap a point or a line; drag the ground to pan, two fingers zoom" : "Click a point or a line; drag the ground to pan, the wheel zooms";
   // What was said is read before it gives way to a hint.
   const said = !held && performance.now() - page.said.at < READ ? page.said.words : "";
   page.status.textContent = store.connection === "connecting" ? "Connecting" : said || hints;
