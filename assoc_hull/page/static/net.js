@@ -89,7 +89,7 @@ export class Net {
   /** A sentence of the library as a person at this page says it: `BTK 0.92 @ adopted 5` is given point 5 of BTK 0.92. @param {string} text */
   said(text) {
     // Calls of the library are no buttons of this page.
-    return text.replace(/ \((?:edit|hull)\.\w+[^)]*\)/g, "").replace("make it shared", "choose the role “shared”").replace("; lengths are in m, 50 mm is 0.05", "").replace(/^faired by a noise of (.+?), stated: (\d+ points could move).*/, "waviness of $1 is taken out: $2").replace(/(.+?) @ (adopted|placed) (\d+)/g, (whole, before, sort, n) => {
+    return text.replace(/ \((?:edit|hull)\.\w+[^)]*\)/g, "").replace("make it shared", "choose the role “shared”").replace("; lengths are in m, 50 mm is 0.05", "").replace(/^faired by a noise of (.+?), stated: (\d+ points could move).+/, "waviness of $1 is taken out: $2").replace(/(.+?) @ (adopted|placed) (\d+)/g, (whole, before, sort, n) => {
       const line = this.longest.find((name) => before.endsWith(name) && !/\w/.test(before[before.length - name.length - 1] ?? " "));
       return line === undefined ? whole : `${before.slice(0, before.length - line.length)}${sort === "placed" ? sort : "given"} point ${n} of ${line}`;
     });
