@@ -11,6 +11,7 @@ from typing import Any
 import attrs
 import numpy as np
 
+from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.shapes import joined
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.hull.hull import Hull
@@ -26,29 +27,45 @@ _LEAST = 1e-4
 def ghost_of_window(
     hull: Hull, row: int, radius: tuple[float, float], noise: float
 ) -> tuple[Frame, dict[str, Any]]:
-    """Fair a window of a copy as a hand at a slider does: to first order, nothing is published.
+    """Fair a window of a copy: the curves that would be others, and what that does, or why not.
 
-    What it does to volume (m3) and LCB (m) is told by the edit itself, tried on the copy.
+    Both are of the edit itself, tried on the copy: what is shown is what is made. Where it is
+    refused, the window is shown to first order.
     """
     if row >= hull.state.rows.count or not hull.state.rows.alive[row]:
         raise BadInputError(f"there is no point {row}", "in a fair window", "reload the page")
     window = hull.fair_window(at=Point.of(hull.state, row), radius=radius)
     frame = window.to(noise=noise)
-    most = float(np.abs(frame.displacement).max(initial=0.0))
-    shapes, state = frame.shapes, hull.state
-    none = state.live("rows")[:0]
-    ghost = Frame(FrameKind.GHOST, hull.state_number, shapes.curves, shapes.spline, none,
-                  state.rows.xyz[none])  # fmt: skip
-    before = hull.hydrostatics(on_error="report", estimate=False)
-    words = {"normal": most, "moved": int((np.abs(frame.displacement) > _LEAST).sum()),
-             "points": len(frame.rows)}  # fmt: skip
+    number, before = hull.state_number, hull.hydrostatics(on_error="report", estimate=False)
+    words = {"moved": int((np.abs(frame.displacement) > _LEAST).sum()), "points": len(frame.rows)}
     try:
-        window.commit()
+        edit = window.commit().edit
     except RefusedEditError as error:
-        return ghost, {**words, "refused": list(error.findings)}
+        shapes, state = frame.shapes, hull.state
+        none = state.live("rows")[:0]
+        ghost = Frame(FrameKind.GHOST, number, shapes.curves, shapes.spline, none,
+                      state.rows.xyz[none])  # fmt: skip
+        return ghost, {**words, "normal": None, "refused": list(error.findings)}
     after = hull.hydrostatics(on_error="report", estimate=False)
-    return ghost, {**words, "volume_change": after.volume - before.volume,
-                   "lcb_change": after.lcb - before.lcb, "refused": []}  # fmt: skip
+    return _changed_since(hull, number), {
+        **words, "normal": _normal(edit), "volume_change": after.volume - before.volume,
+        "lcb_change": after.lcb - before.lcb, "refused": [],
+    }  # fmt: skip
+
+
+def _changed_since(hull: Hull, number: int) -> Frame:
+    """Show the curves of a copy that are others since a state."""
+    state, changed = hull.state, hull.since(number).curves
+    curves = changed[state.curves.alive[changed]]
+    shapes = joined([state.spline(curve) for curve in curves.tolist()])
+    none = state.live("rows")[:0]
+    return Frame(FrameKind.GHOST, number, curves, shapes, none, state.rows.xyz[none])
+
+
+def _normal(report: EditReport | None) -> float | None:
+    """Give how far (m) an edit moves the hull off itself, as it is told when it is made."""
+    normal = None if report is None else report.largest_normal
+    return None if normal is None else normal.distance
 
 
 def ghost_of_edits(
@@ -62,11 +79,10 @@ def ghost_of_edits(
         nothing = Frame(FrameKind.GHOST, hull.state_number, none, joined(()), none,
                         state.rows.xyz[none])  # fmt: skip
         return nothing, {"refused": list(found.refused)}
-    normal = found.report.largest_normal
     frame = Frame(FrameKind.GHOST, hull.state_number, found.shapes.curves, found.shapes.spline,
                   none, state.rows.xyz[none])  # fmt: skip
     return frame, {
-        "normal": None if normal is None else normal.distance, "moved": len(found.lines),
+        "normal": _normal(found.report), "moved": len(found.lines),
         "volume_change": found.volume_change, "lcb_change": found.lcb_change,
         "notes": list(found.report.notes), "refused": [],
     }  # fmt: skip
@@ -87,16 +103,10 @@ def ghost_of_variant(copy: Hull, values: Mapping[str, float], *, accept: bool = 
     """
     number, before = copy.state_number, copy.hydrostatics()
     report = copy.vary(set=values, accept=accept, in_place=True).report
-    after, state = copy.hydrostatics(), copy.state
-    changed = copy.since(number).curves
-    curves = changed[state.curves.alive[changed]]
-    shapes = joined([state.spline(curve) for curve in curves.tolist()])
-    none = state.live("rows")[:0]
-    frame = Frame(FrameKind.GHOST, number, curves, shapes, none, state.rows.xyz[none])
-    normal = report.edit.largest_normal
-    return Ghost(frame, {
+    after = copy.hydrostatics()
+    return Ghost(_changed_since(copy, number), {
         "targets": [str(target) for target in report.targets],
-        "normal": None if normal is None else normal.distance,
+        "normal": _normal(report.edit),
         "volume": after.volume, "volume_change": after.volume - before.volume,
         "lcb": after.lcb, "lcb_change": after.lcb - before.lcb,
         "notes": list(report.notes),

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Locator, expect
 
 import assoc_hull as ah
 from assoc_hull.page import PageServer
@@ -138,7 +138,7 @@ def test_a_wavy_line_is_listed_with_what_its_batten_does_where_it_leads(
     row.wait_for()
     found = hull.fairness()
     place = found.unfair[0]
-    springs = f"{1e3 * place.residual:+.1f} mm".replace("-", "−")
+    springs = f"{1e3 * place.residual:+.1f}".replace("-", "−")
     expect(row.locator("th, td").nth(0)).to_have_text(place.line)
     expect(row.locator("th, td").nth(1)).to_have_text(springs)
     away = place.residual - place.expected
@@ -148,6 +148,11 @@ def test_a_wavy_line_is_listed_with_what_its_batten_does_where_it_leads(
         ".map(each => parseFloat(getComputedStyle(each).paddingLeft))"
     )
     assert min(heads) >= 4.0, "heads of narrow columns do not run together"
+    lines = box.locator("tbody td:first-child")
+    assert all(each["height"] < 30.0 for each in map(Locator.bounding_box, lines.all()) if each)
+    assert box.locator("table").evaluate(
+        "each => each.scrollWidth <= each.parentElement.clientWidth"
+    )
     expect(box.get_by_text(f"{place.point} on {place.line}").first).to_contain_text(
         words, use_inner_text=True
     )

@@ -41,7 +41,7 @@ def test_a_variant_is_a_ghost_until_it_is_applied(open_page: Open, hull: ah.Hull
     wanted = round(hull.particulars.breadth + 0.2, 3)
     field.fill(f"{wanted:.3f}")
     box.get_by_text("Apply").click()
-    words.get_by_text("can be varied").wait_for()
+    words.get_by_text("The hull is varied: one edit.").wait_for()
     assert abs(hull.particulars.breadth - wanted) < 1e-6
     assert [step.author for step in hull.history] == ["anna"]
     for number, flat in ghost:  # what was shown is what was made, to the bit

@@ -4,7 +4,7 @@ import {button, make, paragraph} from "./elements.js";
 import {reasonWords} from "./reasons.js";
 
 const PAUSE = 250; // ms: not at every step of a burst of edits
-const LONG = 700; // ms: an answer that takes longer can be stopped
+export const LONG = 700; // ms: an answer that takes longer can be stopped
 const ANSWERS = ["compare", "export", "fairness", "hydrostatics", "parameters", "preview", "vary", "window"];
 
 export class Asker {
@@ -109,7 +109,7 @@ export class Asker {
   /** A refusal stands where it was asked; that of a ghost that was taken away nowhere. @param {{id: number, text: string}} message */
   problem(message) {
     if (!message.id || message.id !== this.asked) return message.id > 0 && message.id === this.ghost;
-    this.words.textContent = message.text;
+    this.words.textContent = this.page.store.said(message.text);
     return true;
   }
 

@@ -93,9 +93,9 @@ export function makeBar(page) {
 /** What undo and redo would do. @param {Page} page @param {string} id */
 function hint(page, id) {
   const {undo, redo, above} = page.store.history;
-  if (id === "undo" && undo !== null) return above === null ? `Undo: ${undo}` : `The last edit is ${above}'s: ${undo}`;
+  if (id === "undo" && undo !== null) return page.store.said(above === null ? `Undo: ${undo}` : `The last edit is ${above}'s: ${undo}`);
   if (id === "theme") return `Light, dark, or as the system: now ${page.store.theme === "auto" ? "as the system" : page.store.theme}`;
-  if (id === "redo" && redo !== null) return `Redo: ${redo}`;
+  if (id === "redo" && redo !== null) return page.store.said(`Redo: ${redo}`);
   return undefined;
 }
 
@@ -128,9 +128,9 @@ export function openPalette(page, acts) {
   const look = () => {
     const parts = field.value.trim().toLowerCase().split(/\s+/);
     const fit = (/** @type {string} */ words) => parts.every((part) => words.toLowerCase().includes(part));
-    const names = field.value.trim() ? [...(page.store.net?.curves.values() ?? []), ...(page.store.net?.points.values() ?? [])].filter(({name}) => fit(name)) : [];
+    const names = field.value.trim() ? [...(page.store.net?.curves.values() ?? []), ...(page.store.net?.points.values() ?? [])].map(({name}) => ({name, words: page.store.said(name)})).filter(({name, words}) => fit(name) || fit(words)) : [];
     rows = [...acts.filter(({words}) => fit(words)),
-      ...names.slice(0, MOST).map(({name}) => ({words: name, keys: "go there", run: () => page.find(name)}))].slice(0, MOST);
+      ...names.slice(0, MOST).map(({name, words}) => ({words, keys: "go there", run: () => page.find(name)}))].slice(0, MOST);
     at = 0;
     list.replaceChildren(...rows.map((row, i) => {
       const item = make("li"), keys = make("kbd");

@@ -31,7 +31,7 @@ export class Fairing extends Offer {
     const {store} = this.page, value = this.#value(), {row} = store.selection, point = row === null ? undefined : store.net?.points.get(row), {radius} = store.tools;
     const where = point && radius ? `around ${point.name}, ${radius[0].toFixed(1)} × ${radius[1].toFixed(1)} m` : "around the chosen point: click one first";
     this.slider.setAttribute("aria-valuetext", millimetres(value));
-    const words = `Take out waviness of ${(1e3 * value).toFixed(1)} mm ${where}`;
+    const words = store.said(`Take out waviness of ${(1e3 * value).toFixed(1)} mm ${where}`);
     if (this.noise.textContent !== words) this.noise.textContent = words;
     const old = this.listed >= 0 && this.listed !== store.state ? "The list is that of before the last edit: list again." : "";
     if (this.old.textContent !== old) this.old.textContent = old;
@@ -69,16 +69,16 @@ export class Fairing extends Offer {
   /** @param {{lines: Wavy[], unfair: {line: string, point: string, residual: number, expected: number, ratio: number}[], points: {point: string, off: number, score: number, alarm: boolean}[]}} found */
   #show({lines, unfair, points}) {
     this.words.textContent = `${unfair.length ? `${unfair.length} unfair ${unfair.length === 1 ? "place" : "places"}` : "No unfair place"}; ${points.filter(({alarm}) => alarm).length} points look wrong.`;
-    const table = tableOf("The waviest lines: how far a batten springs, outward +, where that is least like the lines beside; times the usual there; inflections", ["line", "springs", "× usual", "inflections"]), body = table.createTBody();
+    const table = tableOf("The waviest lines: how far a batten springs, mm, outward +, where that is least like the lines beside; times the usual there; inflections", ["line", "springs", "× usual", "inflections"]), body = table.createTBody();
     for (const each of lines) {
       const row = body.insertRow();
       row.insertCell().append(link(each.line, () => this.#fly(each.at, each.line)));
-      for (const words of [signed(1e3 * each.springs, 1, "mm"), each.ratio.toFixed(1), each.inflections === null ? "–" : String(each.inflections)]) row.insertCell().textContent = words;
+      for (const words of [signed(1e3 * each.springs, 1, ""), each.ratio.toFixed(1), each.inflections === null ? "–" : String(each.inflections)]) row.insertCell().textContent = words;
     }
-    const list = (/** @type {string} */ title, /** @type {HTMLElement[]} */ rows) => rows.length ? [paragraph(title), ...rows] : [];
+    const said = (/** @type {string} */ name) => this.page.store.said(name), list = (/** @type {string} */ title, /** @type {HTMLElement[]} */ rows) => rows.length ? [paragraph(title), ...rows] : [];
     this.list.replaceChildren(table,
-      ...list("Unfair places", unfair.map((each) => link(`${each.point} on ${each.line}: a ${each.residual > each.expected ? "hollow" : "hump"} of ${millimetres(Math.abs(each.residual - each.expected))} beside its neighbours, ${each.ratio.toFixed(1)} times the usual`, () => this.#fly(each.point, each.line)))),
-      ...list(points.some(({alarm}) => alarm) ? "Points that their lines do not bear out" : "Points farthest off their fair lines; none so far that it looks wrong", points.map((each) => link(`${each.point}: ${millimetres(Math.abs(each.off))} too far ${each.off > 0 ? "out" : "in"}, score ${each.score.toFixed(1)}${each.alarm ? ": looks wrong" : ""}`, () => this.#fly(each.point, each.point.split(" x ")[0])))));
+      ...list("Unfair places", unfair.map((each) => link(`${said(each.point)}${each.point.startsWith(`${each.line} @ `) ? "" : ` on ${each.line}`}: a ${each.residual > each.expected ? "hollow" : "hump"} of ${millimetres(Math.abs(each.residual - each.expected))} beside its neighbours, ${each.ratio.toFixed(1)} times the usual`, () => this.#fly(each.point, each.line)))),
+      ...list(points.some(({alarm}) => alarm) ? "Points that their lines do not bear out" : "Points farthest off their fair lines; none so far that it looks wrong", points.map((each) => link(`${said(each.point)}: ${millimetres(Math.abs(each.off))} too far ${each.off > 0 ? "out" : "in"}, score ${each.score.toFixed(1)}${each.alarm ? ": looks wrong" : ""}`, () => this.#fly(each.point, each.point.split(" x ")[0])))));
   }
 
   /** Goes to a place, near enough to see it. @param {string} point @param {string} line */

@@ -216,7 +216,7 @@ export class Pointers {
     const point = row === null ? undefined : net?.points.get(row);
     tip.hidden = !net || (!point && curve === null);
     if (tip.hidden || !net) return;
-    const name = make("b", {}, point ? point.label || point.name : curve === null ? "" : net.curveName(curve));
+    const name = make("b", {}, point ? point.label || net.said(point.name) : curve === null ? "" : net.curveName(curve));
     tip.replaceChildren(name, ...point ? [net.roleWords(point), net.wayWords(point)].map((words) => make("span", {}, words)) : []);
     const right = x > view.width - 250;
     tip.style.left = right ? "auto" : `${x + 16}px`;

@@ -13,6 +13,8 @@ export class Hand {
     this.store = store;
     this.send = send;
     this.gesture = 0;
+    /** The gesture that was ended before anything could be asked. */
+    this.ended = 0;
     this.seq = 0;
     this.inFlight = 0;
     this.gripped = false;
@@ -45,6 +47,7 @@ export class Hand {
     if (!start || !this.free) return false;
     this.onBegin?.();
     this.gesture++;
+    this.ended = 0;
     this.gripped = false;
     this.wish = this.last = null;
     this.inFlight = 0;
@@ -131,7 +134,10 @@ export class Hand {
   finish() {
     const held = this.store.held;
     if (!held) return;
-    if (!held.held || !this.last || !held.amount) return this.cancel();
+    if (!held.held || !this.last || !held.amount) {
+      if (!this.gripped) this.ended = this.gesture;
+      return this.cancel();
+    }
     if (!held.refused && this.onLet?.(held, this.last)) return this.cancel();
     const name = this.store.net?.points.get(held.row)?.name ?? "a point", far = (1e3 * held.amount).toFixed(1);
     this.committing = {gesture: this.gesture, row: held.row, seq: ++this.seq};
@@ -221,10 +227,12 @@ export class Hand {
   refused(message) {
     const mine = message.gesture === this.gesture && this.store.held !== null;
     const made = this.committing?.gesture === message.gesture && message.gesture !== 0;
-    if (!mine && !made) return false;
+    // Let go before it was said that it cannot be taken hold of: who asked is told.
+    const late = this.ended > 0 && message.gesture === this.ended;
+    if (!mine && !made && !late) return false;
     this.asked.delete(message.seq);
-    const held = this.store.held, row = held?.row ?? this.committing?.row ?? null;
-    const text = reasonWords(message.reasons, held?.how === "pull"), place = held ? held.place : row === null ? null : [...(this.store.places.get(row) ?? [])];
+    const held = this.store.held, row = held?.row ?? this.committing?.row ?? message.row ?? null;
+    const text = this.store.said(reasonWords(message.reasons, held?.how === "pull")), place = held ? held.place : row === null ? null : [...(this.store.places.get(row) ?? [])];
     const all = message.reasons.join("\n");
     this.store.refusal = {text, all, row, place, named: this.store.net?.named(all) ?? []};
     if (made) {

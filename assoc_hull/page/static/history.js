@@ -21,6 +21,8 @@ export class Past extends Asker {
     super(page, box);
     /** The list comes unasked, also while something else is waited for. */
     this.listed = 0;
+    /** The state that its words tell of, -1 where they tell of none. */
+    this.at = -1;
     this.name = make("input", {ariaLabel: "name of the present state", placeholder: "name of this state", maxLength: 80});
     this.name.onkeydown = (event) => {
       if (event.key === "Enter") this.#keep();
@@ -29,7 +31,11 @@ export class Past extends Asker {
   }
 
   render() {
-    this.fresh(String(this.page.store.state), () => { this.listed = this.page.request({t: "steps"}); });
+    const {state, history} = this.page.store;
+    // An edit that moves nothing, and its undo, are steps too.
+    this.fresh([state, history.edits, history.undo, history.redo].join("/"), () => { this.listed = this.page.request({t: "steps"}); });
+    if (this.at !== state && this.at >= 0) this.words.textContent = "";
+    if (this.at !== state) this.at = -1;
   }
 
   #keep() {
@@ -54,6 +60,7 @@ export class Past extends Asker {
     if (message.id !== this.asked) return;
     if (this.asked !== this.ghost) {
       this.words.textContent = "The hull is at that state; what was left is kept in this list.";
+      this.at = this.page.store.state;
       this.page.say(this.words.textContent);
     } else {
       const {count, lines, volume, lcb} = message.value;
@@ -69,13 +76,13 @@ export class Past extends Asker {
     for (const step of [...found.steps].reverse().concat([first])) {
       const item = make("li"), names = found.labels.filter((each) => each.step === step.number).map(({name}) => name);
       const here = step.number === found.head, note = here ? "the present state" : step.way < 0 ? "taken back" : step.way ? "" : `on a branch from step ${step.parent}`;
-      const title = here ? paragraph(step.name, "now") : link(step.name, () => this.#go(step.number));
+      const title = here ? paragraph(this.page.store.said(step.name), "now") : link(this.page.store.said(step.name), () => this.#go(step.number));
       if (here) item.setAttribute("aria-current", "step");
       else title.title = "Bring the hull to the state after this step";
       item.append(title, paragraph([...names.map((name) => `“${name}”`), note, step.author, clock(step.time), step.normal === null ? "" : `hull moved ${millimetres(step.normal)} off itself at most`].filter(Boolean).join(" · ")));
       if (!here) {
         const compare = link("compare with it", () => this.#compare(step.number));
-        compare.setAttribute("aria-label", `compare with ${step.name}`);
+        compare.setAttribute("aria-label", `compare with ${this.page.store.said(step.name)}`);
         item.append(compare);
       }
       list.append(item);
@@ -117,7 +124,7 @@ export class WhyPanel extends Asker {
   answer(message) {
     if (message.id !== this.asked || !message.value) return;
     const {edit, step, because, tree} = message.value;
-    this.words.textContent = edit === null ? `${tree.name} is as it came: no edit has reached it.` : `Last moved by step ${step}, “${edit}”${because ? `: ${because}` : ""}.`;
+    this.words.textContent = this.page.store.said(edit === null ? `${tree.name} is as it came: no edit has reached it.` : `Last moved by step ${step}, “${edit}”${because ? `: ${because}` : ""}.`);
     const list = make("ul", {className: "tree"});
     if (edit !== null) list.append(this.#item(tree));
     this.list.replaceChildren(list);
@@ -126,11 +133,11 @@ export class WhyPanel extends Asker {
   /** @param {Cause} cause */
   #item(cause) {
     const item = make("li"), moved = (cause.moved === null ? "" : `, moved ${millimetres(cause.moved)}`) + (cause.slid ? `, slid ${millimetres(cause.slid)}` : "");
-    item.append(link(cause.name, () => this.page.find(cause.name)), ` ${cause.what}${moved}`);
+    item.append(link(this.page.store.said(cause.name), () => this.page.find(cause.name)), ` ${this.page.store.said(cause.what)}${moved}`);
     const below = make("ul");
     for (const each of cause.causes) below.append(this.#item(each));
     if (cause.left) below.append(this.#note(cause.causes.length ? `${cause.left} more moved less` : `made from ${cause.left} more: click it`));
-    if (cause.stopped.length) below.append(this.#note(`came out as they were: ${cause.stopped.slice(0, 3).join(", ")}`));
+    if (cause.stopped.length) below.append(this.#note(`came out as they were: ${cause.stopped.slice(0, 3).map((each) => this.page.store.said(each)).join(", ")}`));
     if (below.childElementCount) item.append(below);
     return item;
   }

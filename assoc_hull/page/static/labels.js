@@ -1,174 +1,17 @@
 // Names of lines, as on a lines plan: in the line itself where they cover no other, else beside the drawing with a leader.
 
 import {pathsOf} from "./view.js";
-import {dotsOf} from "./marks.js";
 import {FLATS} from "./net.js";
+import {HIGH, MANY, Places, UPRIGHT} from "./label_places.js";
 
 /** A name that is to be written: of which line, at its end or where a leader ends. @typedef {{line: Line, name: string, key: string, x: number, y: number, gap: number, colour: string}} Spot */
 /** Where a leader leaves the drawing, and what it costs that it does so there. @typedef {Spot & {knee: number, cost: number}} Knee */
 /** Leaders side by side: the last of them, those before it, what all cost. @typedef {{cost: number, last: Knee | null, before: Row | null}} Row */
 
-const LETTERS = "11px system-ui, sans-serif", HIGH = 12, UPRIGHT = [10, 12], CELL = 3, EDGE = 10; // px
-const COLUMN = 12, ROW = 24, LEAST_GAP = 0.2, NEAR_GAP = 5, FREE_GAP = 9, TOLD = 1.5, PLAIN = 4; // px
-const SLANT = 0.4, APART = 7, BESIDE = 8;
-const NAMELESS = 600, AGAIN = 200; // what it costs that a line has no name, and none in this half
-const MANY = 0xffff, DOT = 0xfffe; // what a cell holds beside numbers of lines
-
-/** Names that stand already, and the cells of the picture that lines and marks cover. */
-class Places {
-  /** @param {CanvasRenderingContext2D} g @param {View} view @param {Record<string, string>} ink */
-  constructor(g, view, ink) {
-    this.g = g;
-    this.view = view;
-    this.ink = ink;
-    const {offsetLeft: l, offsetTop: t, offsetWidth: w, offsetHeight: h} = view.head, from = getComputedStyle(view.head).transform === "none" ? l : l - w / 2;
-    /** The first is the title. @type {Name[]} */
-    this.written = [{text: "", box: [from, t, from + w, t + h], colour: "", turned: false}];
-    this.left = 0;
-    this.right = Infinity;
-    /** Whether the family of the view's lines is told, and names that stand in such lines. */
-    this.captioned = false;
-    /** @type {{name: Name, line: Line}[]} */
-    this.inline = [];
-    /** @type {Map<string, number>} */
-    this.widths = new Map();
-    this.across = Math.ceil(view.width / CELL) + 1;
-    this.cells = new Uint16Array(this.across * (Math.ceil(view.height / CELL) + 1));
-    /** @type {Map<Line, number>} */
-    this.numbers = new Map();
-    for (const {id, path} of pathsOf(view)) {
-      const line = view.store.net?.lineOf(id);
-      if (line) this.cover(path, this.number(line));
-    }
-    for (const row of dotsOf(view)) this.#dot(view.store.placeOf(row), 4);
-    const {marked, selection} = view.store;
-    if (marked) this.#dot(marked, 24);
-    if (selection.row !== null && view.rows().includes(selection.row)) this.#dot(view.store.placeOf(selection.row), 10);
-  }
-
-  /** @param {Line} line */
-  number(line) {
-    const known = this.numbers.get(line) ?? this.numbers.size + 1;
-    this.numbers.set(line, known);
-    return known;
-  }
-
-  /** Marks what a line covers; of long segments only what is seen. @param {Float32Array} path @param {number} number */
-  cover(path, number) {
-    const {across, cells, view} = this, room = [view.width - 1, view.height - 1];
-    for (let i = 0; i + 3 < path.length; i += 2) {
-      const from = [path[i], path[i + 1]], by = [path[i + 2] - from[0], path[i + 3] - from[1]];
-      let low = 0, high = 1;
-      for (const j of [0, 1]) {
-        const ends = [-from[j] / by[j], (room[j] - from[j]) / by[j]].sort((p, q) => p - q);
-        if (by[j]) [low, high] = [Math.max(low, ends[0]), Math.min(high, ends[1])];
-        else if (from[j] < 0 || from[j] > room[j]) high = -1;
-      }
-      const n = Math.ceil((high - low) * Math.max(Math.abs(by[0]), Math.abs(by[1])) / CELL) + 1;
-      for (let k = 0; high >= low && k <= n; k++) {
-        const u = low + (high - low) * k / n, at = across * Math.floor((from[1] + u * by[1]) / CELL) + Math.floor((from[0] + u * by[0]) / CELL);
-        cells[at] = cells[at] && cells[at] !== number ? MANY : number;
-      }
-    }
-  }
-
-  /** @param {ArrayLike<number> | undefined} place @param {number} reach */
-  #dot(place, reach) {
-    if (!place) return;
-    const [x, y] = this.view.atPlace(place);
-    this.#within([x - reach, y - reach, x + reach, y + reach], (at) => {
-      this.cells[at] = DOT;
-      return false;
-    });
-  }
-
-  /** Whether a cell of a box is so. @param {number[]} box @param {(at: number) => boolean} so */
-  #within([l, t, r, b], so) {
-    const {width, height} = this.view;
-    for (let y = Math.floor(Math.max(t, 0) / CELL); y <= Math.min(b, height - 1) / CELL; y++) {
-      for (let x = Math.floor(Math.max(l, 0) / CELL); x <= Math.min(r, width - 1) / CELL; x++) if (so(this.across * y + x)) return true;
-    }
-    return false;
-  }
-
-  /** Whether a mark lies there. @param {number[]} box */
-  dotted(box) { return this.#within(box, (at) => this.cells[at] === DOT); }
-
-  /** Whether there is nothing but the line of this number. @param {number[]} box @param {number} number */
-  clear(box, number) { return !this.#within(box, (at) => this.cells[at] > 0 && this.cells[at] !== number); }
-
-  /** Whether a box lies within the picture, and on no name. @param {number[]} box */
-  free([l, t, r, b]) {
-    return l >= 2 && t >= 2 && r <= this.view.width - 2 && b <= this.view.height - 1 && !this.written.some(({box: [L, T, R, B]}) => l < R + 4 && r > L - 4 && t < B && b > T);
-  }
-
-  /** @param {string} text */
-  wide(text) {
-    const known = this.widths.get(text) ?? this.g.measureText(text).width;
-    this.widths.set(text, known);
-    return known;
-  }
-
-  /** The room that a name takes. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align */
-  box(text, x, y, align) {
-    const w = this.wide(text), left = align === "center" ? x - w / 2 : align === "right" ? x - w : x;
-    return [left, y - HIGH / 2, left + w, y + HIGH / 2];
-  }
-
-  /** Finds room for a name, unless it would lie over another, or outside. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align @param {string} colour */
-  put(text, x, y, align, colour) {
-    const box = this.box(text, x, y, align), free = this.free(box);
-    if (free) this.written.push({text, box, colour, turned: false});
-    return free;
-  }
-
-  /** A name at the edge; where a mark lies on it, farther in along its grid line. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align @param {string} colour */
-  edge(text, x, y, align, colour) {
-    const away = align === "center" ? [[x, y], [x, y - 14], [x, y - 28], [x + 14, y], [x - 14, y]] : [0, 1, 2, 3].map((n) => [x + (align === "right" ? 16 : -16) * n, y]);
-    // Letters are less high than their room: a point on the base line is no hindrance to names below it.
-    const clear = (/** @type {number[]} */ [l, t, r, b]) => !this.dotted([l, t + 2, r, b - 2]);
-    const [u, v] = away.find(([p, q]) => clear(this.box(text, p, q, align))) ?? [x, y];
-    return this.put(text, u, v, align, colour);
-  }
-
-  /** A name that stands upright on its foot. @param {string} text @param {number} x @param {number} y @param {string} colour */
-  upright(text, x, y, colour) { this.written.push({text, box: [x - UPRIGHT[0] / 2, y - this.wide(text), x + UPRIGHT[0] / 2, y], colour, turned: true}); }
-
-  /** The family of the lines that the view shows, once. @param {string} text @param {number} x @param {number} y @param {CanvasTextAlign} align @param {string} colour */
-  caption(text, x, y, align, colour) {
-    this.captioned ||= this.put(text, x, y, align, colour);
-    return this.captioned;
-  }
-
-  /** Where no row of names tells the family, a name in a line does. */
-  captionInline() {
-    for (const {name, line} of this.captioned ? [] : this.inline) {
-      const [l, t, r, b] = name.box, wide = this.wide(line.name) / 2, box = [(l + r) / 2 - wide, t, (l + r) / 2 + wide, b];
-      name.box = [-9, -9, -9, -9]; // it does not stand in its own way
-      this.captioned = this.free(box) && !this.dotted(box) && box[0] > this.left + 4 && box[2] < this.right - 4;
-      name.box = this.captioned ? box : [l, t, r, b];
-      if (this.captioned) name.text = line.name;
-      if (this.captioned) return;
-    }
-  }
-
-  /** Writes all names, over lines and leaders. */
-  write() {
-    const {g, ink} = this;
-    for (const {text, box: [l, t, r, b], colour, turned} of this.written.slice(1)) {
-      // A line that shows through a point reads as a colon.
-      g.fillStyle = ink.paper;
-      if (!turned) g.fillRect(l - 1, t, r - l + 2, b - t);
-      g.fillStyle = colour;
-      g.save();
-      g.translate(turned ? (l + r) / 2 : l, turned ? b : (t + b) / 2);
-      if (turned) g.rotate(-Math.PI / 2);
-      g.fillText(text, 0, 0);
-      g.restore();
-    }
-    this.view.written = this.written;
-  }
-}
+const LETTERS = "11px system-ui, sans-serif", EDGE = 10; // px
+const COLUMN = 12, ROW = 24, WIDEST = 13, LEAST_GAP = 0.2, CLOSE = 0.7, NEAR_GAP = 5, FREE_GAP = 9, TOLD = 1.5, PLAIN = 4; // px
+const SLANT = 0.4, APART = 7, BESIDE = 8, BEYOND = 20;
+const NAMELESS = 600, AGAIN = 320; // what it costs that a line has no name, and none in this half
 
 /** @param {string} name */
 const short = (name) => name.replace(/^(ST|WL|BTK|DIA|FR) /, "");
@@ -182,30 +25,38 @@ export function drawLabels(view, g, ink) {
   g.font = LETTERS;
   g.textBaseline = "middle";
   g.textAlign = "left";
-  const places = new Places(g, view, ink), {x0, x1, y1, z0, z1} = view.box(), ship = net.particulars, body = view.kind === "body";
-  const of = (/** @type {string} */ family) => net.lines.filter((line) => line.family === family && line.offset !== null && line.axis !== null);
-  const left = places.left = Math.max(view.at(body ? 0 : x0, y1, 0, -1)[0] - 8, 40);
+  const {x0, x1, y1, z0, z1} = view.box(), ship = net.particulars, body = view.kind === "body";
   // Leaders of buttocks come out at the stern, where names of the grid would stand.
-  const [end, way] = view.steep ? /** @type {[number, CanvasTextAlign]} */ ([places.right = Math.min(view.at(x1, 0, 0, 1)[0] + 8, view.width - 38), "left"]) : /** @type {[number, CanvasTextAlign]} */ ([left, "right"]);
-  const foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
+  const left = Math.max(view.at(body ? 0 : x0, y1, 0, -1)[0] - 8, 40), right = Math.min(view.at(x1, 0, 0, 1)[0] + 8, view.width - 38), foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
+  frame(view, g, ink, left, right, foot);
+  const places = new Places(g, view, ink);
+  const of = (/** @type {string} */ family) => net.lines.filter((line) => line.family === family && line.offset !== null && line.axis !== null);
+  places.left = left;
+  places.foot = foot;
+  if (view.steep) places.right = right;
+  const [end, way] = /** @type {[number, CanvasTextAlign]} */ (view.steep ? [right, "left"] : [left, "right"]);
+  /** One of the row below; none in the column. @param {string} text @param {number} x @param {number} y @param {string} colour */
+  const below = (text, x, y, colour) => places.box(text, x, y, "center")[0] > (view.frame.length ? left + 4 : 0) && places.edge(text, x, y, "center", colour);
   places.edge(body ? "BTK" : "ST", left, foot + 12, "right", ink.soft); // first, or a label has its place
   if (body) above(places, "sections");
   if (view.kind !== "half") {
-    places.edge("DWL", end, view.at(0, 0, ship.draught, 1)[1], way, ink.water);
-    places.edge("BL", end, view.at(0, 0, 0, 1)[1], way, ink.soft);
+    for (const [text, z, colour] of /** @type {[string, number, string][]} */ ([["DWL", ship.draught, ink.water], ["BL", 0, ink.soft]])) {
+      const y = view.at(0, 0, z, 1)[1];
+      if (y <= foot + 4) places.edge(text, end, y, way, colour);
+    }
     column(places, "WL", of("waterlines"), end, way, (z) => view.at(0, 0, z, 1)[1]);
   }
   if (body) {
     const names = [...of("buttocks")].reverse();
-    for (const side of [-1, 1]) for (const line of names) places.edge(short(line.name), view.at(0, line.offset ?? 0, 0, side)[0], foot + 12, "center", ink.soft);
+    for (const side of [-1, 1]) for (const line of names) below(short(line.name), view.at(0, line.offset ?? 0, 0, side)[0], foot + 12, ink.soft);
     if (view.at(0, 0, z0, 1)[1] < view.height) for (const [text, side] of /** @type {[string, number][]} */ ([["aft", -1], ["fore", 1]])) places.put(text, view.at(0, y1 / 2, 0, side)[0], foot + 26, "center", ink.soft);
   } else {
     places.put("AP", view.at(0, 0, 0, 1)[0], foot + 26, "center", ink.soft);
     places.put("FP", view.at(ship.length, 0, 0, 1)[0], foot + 26, "center", ink.soft);
     const all = of("sections").map((line) => ({name: short(line.name), x: view.at(line.offset ?? 0, 0, 0, 1)[0]})).sort((p, q) => half(p.name) - half(q.name));
-    for (const {name, x} of all) places.edge(name, x, foot + 12, "center", ink.soft);
+    for (const {name, x} of all) below(name, x, foot + 12, ink.soft);
     if (view.kind === "half") {
-      places.edge("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
+      if (view.at(0, 0, 0, 1)[1] <= foot + 4) places.edge("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
       column(places, "BTK", of("buttocks"), left, "right", (y) => view.at(0, y, 0, 1)[1]);
     }
     if (view.steep) above(places, "buttocks");
@@ -214,6 +65,18 @@ export function drawLabels(view, g, ink) {
   borders(places);
   places.captionInline();
   places.write();
+}
+
+/** Where the drawing goes on beyond them, names of the grid have a column and a row of their own at the edge of the view, which covers it. @param {View} view @param {CanvasRenderingContext2D} g @param {Record<string, string>} ink @param {number} left @param {number} right @param {number} foot */
+function frame(view, g, ink, left, right, foot) {
+  const {x0, x1, y1, z0} = view.box(), {width, height} = view, body = view.kind === "body", aft = view.at(body ? 0 : x0, y1, 0, -1)[0], fore = view.at(x1, 0, 0, 1)[0];
+  if (view.at(0, 0, z0, 1)[1] > foot + 4) view.frame.push([-BEYOND, foot + 4, width + BEYOND, height + BEYOND]);
+  if (!view.steep && aft < left + 4) view.frame.push([-BEYOND, -BEYOND, left + 4, height + BEYOND]);
+  if (view.steep && fore > right - 4) view.frame.push([right - 4, -BEYOND, width + BEYOND, height + BEYOND]);
+  g.fillStyle = ink.paper;
+  for (const [l, t, r, b] of view.frame) g.fillRect(l, t, r - l, b - t);
+  g.fillStyle = ink.rule;
+  for (const [l, t, r] of view.frame) t > 0 ? g.fillRect(view.steep || aft >= left + 4 ? 0 : left + 4, t, width, 1) : g.fillRect(l > 0 ? l : r - 1, 0, 1, foot + 4);
 }
 
 /** Lines that run along the ship are named in themselves, or by leaders from above. @param {Places} places */
@@ -230,7 +93,7 @@ function beside(places) {
 function column(places, family, lines, x, align, at) {
   const {ink} = places, rows = lines.map(({name, offset}) => ({name: short(name), y: at(offset ?? 0)}));
   // One at the edge leaves no room for the family.
-  const written = rows.filter(({name, y}) => y >= EDGE + HIGH + 1 && places.edge(name, x, y, align, ink.soft)).map(({y}) => y);
+  const written = rows.filter(({name, y}) => y >= EDGE + HIGH + 1 && y <= places.foot + 4 && places.edge(name, x, y, align, ink.soft)).map(({y}) => y);
   if (written.length) places.put(family, x, Math.min(...written) - HIGH - 1, align, ink.soft);
 }
 
@@ -249,7 +112,7 @@ function above(places, family) {
       if (!end) continue;
       const [x, y] = view.at(end[0], end[1], end[2], side);
       // One that ends outside the picture is named along itself.
-      if (y >= 20 && y < view.height && x > 0 && x < view.width) ends.push({line, name: short(line.name), key: line.name + (body || end[0] > middle), x, y, gap: 0, colour: ink[family]});
+      if (y >= 20 && y < view.height && x > 0 && x < view.width && !view.framed(x, y)) ends.push({line, name: short(line.name), key: line.name + (body || end[0] > middle), x, y, gap: 0, colour: ink[family]});
     }
   }
   // Of those that end in one place the order is that of the ship.
@@ -266,7 +129,7 @@ function above(places, family) {
   for (const {key} of alone) if (!fan.some((each) => each.key === key)) written.delete(key);
   for (const {key} of fan) written.add(key);
   // Names side by side are told apart better than they stand, where there is room.
-  const pitch = Math.max(Math.min((view.width - 8) / fan.length, UPRIGHT[1]), UPRIGHT[0]), xs = spread(fan.map(({x}) => x), fan.map(() => pitch), 4, view.width - 4);
+  const pitch = Math.max(Math.min((view.width - 8) / fan.length, WIDEST), UPRIGHT[0]), xs = spread(fan.map(({x}) => x), fan.map(() => pitch), 4, view.width - 4);
   fan.forEach(({name, x, y, colour}, i) => {
     leader(places, [[x, y - 1], [xs[i], top]], colour, false);
     places.upright(name, xs[i], top - 2, colour);
@@ -302,7 +165,7 @@ function spotsOf(places) {
   const add = (/** @type {number} */ id, /** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ gap) => {
     const line = net?.lineOf(id);
     // Over the centre plane it would name aft and fore body.
-    if (!line || x < from || x > view.width || y < 0 || y > view.height || body && Math.abs(x - middle) < 4) return;
+    if (!line || x < from || x > view.width || y < 0 || y > view.height || view.framed(x, y) || body && Math.abs(x - middle) < 4) return;
     found.push({line, name: short(line.name), key: line.name + (body || x > middle), x, y, gap: Math.min(gap, 40), colour: ink[line.family] || ink.ink});
   };
   const gaps = (/** @type {Met[]} */ row, /** @type {(each: Met, gap: number) => void} */ give) => row.sort((p, q) => p.at - q.at).forEach((each, i) => give(each, Math.min(each.at - (row[i - 1]?.at ?? -Infinity), (row[i + 1]?.at ?? Infinity) - each.at)));
@@ -322,7 +185,7 @@ function within(places, spots, written, least) {
     const ways = /** @type {[number, CanvasTextAlign][]} */ ([[x, align], ...least ? [[x + BESIDE, "left"], [x - BESIDE, "right"]] : []]);
     const found = ways.find(([u, way]) => {
       const box = places.box(name, u, y, way);
-      if (box[0] < places.left + 4 || box[2] > places.right - 4) return false; // there names of the grid stand
+      if (!places.inside(box)) return false; // there names of the grid stand
       return (least && u === x ? !places.dotted(box) : places.clear(box, places.number(line))) && places.free(box);
     });
     if (!found || !places.put(name, found[0], y, found[1], colour)) continue;
@@ -333,7 +196,7 @@ function within(places, spots, written, least) {
 
 /** Lines so near one another that no name fits in, as seen from near: their names stand in order where nothing is drawn. @param {Places} places @param {Spot[]} spots @param {Set<string>} written */
 function fanned(places, spots, written) {
-  const {view} = places, named = (/** @type {Spot} */ {line}) => written.has(`${line.name}true`) || written.has(`${line.name}false`);
+  const {view} = places, middle = view.kind === "body" ? view.at(0, 0, 0, 1)[0] : -Infinity, named = (/** @type {Spot} */ {line}) => written.has(`${line.name}true`) || written.has(`${line.name}false`);
   /** @type {Map<number, Spot[]>} */
   const cuts = new Map();
   for (const each of spots) if (each.line.family !== "boundary" && !named(each) && each.gap > LEAST_GAP) cuts.set(each.x, [...cuts.get(each.x) ?? [], each]);
@@ -341,17 +204,21 @@ function fanned(places, spots, written) {
   const [cut] = [...cuts.values()].filter((all) => new Set(all.map(({line}) => line)).size === all.length).sort((p, q) => worth(q) - worth(p));
   if (!cut) return;
   cut.sort((p, q) => p.y - q.y);
+  const wayTo = (/** @type {Spot} */ {name, x, y}, /** @type {number} */ u, /** @type {number} */ v) => [[x, y], [u + (x < u ? -1 : 1) * (places.wide(name) / 2 + 2), v]];
   const ys = spread(cut.map(({y}) => y), cut.map(() => HIGH), 4, view.height - 34), wide = Math.max(...cut.map(({name}) => places.wide(name)));
   const rooms = Array.from({length: Math.ceil(view.width / COLUMN)}, (_, k) => k * COLUMN + wide / 2).map((x) => {
-    const free = cut.map(({name}, i) => places.box(name, x, ys[i], "center")).map((box) => box[0] > places.left + 4 && box[2] < places.right - 4 && places.clear(box, 0) && places.free(box));
+    const free = cut.map((each, i) => {
+      const box = places.box(each.name, x, ys[i], "center");
+      return places.inside(box) && places.clear(box, 0) && places.free(box) && !places.under(wayTo(each, x, ys[i]));
+    });
     return {x, free, cost: Math.abs(x - cut[0].x) - 200 * free.filter(Boolean).length};
-  }).filter(({x, free}) => free.some(Boolean) && Math.abs(x - cut[0].x) > wide);
+  }).filter(({x, free}) => free.some(Boolean) && Math.abs(x - cut[0].x) > wide && Math.min((x - middle) * (cut[0].x - middle), Math.abs(x - middle) - wide / 2) > 0);
   const room = rooms.reduce((p, q) => q.cost < p.cost ? q : p, rooms[0]);
   if (room) cut.forEach(({name, key, x, y, colour}, i) => {
     if (!room.free[i] || !places.put(name, room.x, ys[i], "center", colour)) return;
     written.add(key);
     places.inline.push({name: places.written[places.written.length - 1], line: cut[i].line});
-    leader(places, [[x, y], [room.x + (x < room.x ? -1 : 1) * (places.wide(name) / 2 + 2), ys[i]]], colour, true);
+    leader(places, wayTo(cut[i], room.x, ys[i]), colour, true);
   });
 }
 
@@ -363,7 +230,7 @@ function borders(places) {
     const sides = /** @type {[number, number, CanvasTextAlign][]} */ ([[x, y, "center"], [x, y - 9, "center"], [x, y + 9, "center"], [x + 6, y, "left"], [x - 6, y, "right"]]);
     const free = sides.find(([u, v, align]) => {
       const box = places.box(name, u, v, align);
-      return box[0] >= places.left + 4 && box[2] <= places.right - 4 && places.clear(box, places.number(line)) && places.free(box);
+      return places.inside(box) && places.clear(box, places.number(line)) && places.free(box);
     });
     // A flat that is seen from its edge is none.
     if (!free || line.boundary === FLATS && edgeOn(view, line)) named.add(free ? name : "");
@@ -373,7 +240,9 @@ function borders(places) {
 
 /** Whether a line is seen as no more than a straight one along the picture. @param {View} view @param {Line} line */
 function edgeOn(view, line) {
-  const paths = pathsOf(view).filter(({id}) => line.curves.includes(id)).flatMap(({path}) => [...path]);
+  // Of the body plan both halves are one: a flat has an edge in each.
+  const middle = view.kind === "body" ? view.at(0, 0, 0, 1)[0] : -Infinity;
+  const paths = pathsOf(view).filter(({id}) => line.curves.includes(id)).flatMap(({path}) => [...path].map((each, i) => i % 2 || middle < -1e9 ? each : Math.abs(each - middle)));
   return [0, 1].some((j) => {
     const along = paths.filter((_, i) => i % 2 === j);
     return Math.max(...along) - Math.min(...along) < 2 * HIGH;
@@ -389,7 +258,7 @@ function led(places, spots, written) {
   chosen.forEach((each, i) => {
     const up = xs[i] - wide(each) / 2 < low + 6 ? 12 : 0;
     if (!up) low = xs[i] + wide(each) / 2;
-    if (places.put(each.name, xs[i], top - 14 - up, "center", each.colour)) leader(places, [[each.x, each.y], [each.knee, top], [xs[i], top - 8 - up]], each.colour, true);
+    if (places.put(each.name, xs[i], top - 14 - up, "center", each.colour)) leader(places, [[each.x, each.y], [each.knee, top], ...up ? [[xs[i], top - 7]] : [], [xs[i], top - 8 - up]], each.colour, true); // between the names of the lower row
   });
   const [first] = chosen, last = chosen.at(-1);
   if (!first || !last) return;
@@ -408,7 +277,7 @@ function knees(places, spots, written, top, room) {
     const of = new Map();
     for (const each of spots) {
       const {line, key, x, y, gap} = each, knee = x + (aft ? -1 : 1) * SLANT * (y - top), twice = written.has(`${line.name}${aft}`);
-      if (line.family === "boundary" || x < middle !== aft || y <= top || written.has(key) || gap <= (twice ? PLAIN : LEAST_GAP) || knee < places.left || knee > far) continue;
+      if (line.family === "boundary" || x < middle !== aft || y <= top || written.has(key) || gap <= (twice ? CLOSE : LEAST_GAP) || knee < places.left || knee > far || places.under([[x, y], [knee, top]])) continue;
       // Near, and told from its neighbours.
       const cost = 0.6 * (y - top) + 25 * Math.max(PLAIN - gap, 0) + 6 * Math.max(2 * PLAIN - gap, 0) - (twice ? AGAIN : NAMELESS), known = of.get(line);
       if (known) known.push({...each, knee, cost});

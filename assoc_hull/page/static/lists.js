@@ -36,8 +36,8 @@ export class PointTable {
   #row(line, row, id) {
     const {store} = this.page, point = store.net?.points.get(row), place = store.places.get(row);
     if (!point || !place || !store.net) return;
-    const other = point.a === id ? point.b : point.a, name = link(other >= 0 ? store.net.curveName(other) : point.name.replace(/^.* @ /, ""), () => this.page.choose(row, id));
-    name.title = `${point.name}: ${store.net.roleWords(point)}`;
+    const other = point.a === id ? point.b : point.a, name = link(other >= 0 ? store.net.curveName(other) : store.said(point.name).replace(/^(\w+) point (\d+) of .*$/, "$1 $2"), () => this.page.choose(row, id));
+    name.title = `${store.said(point.name)}: ${store.net.roleWords(point)}`;
     if (row === store.selection.row) line.setAttribute("aria-current", "true");
     line.insertCell().append(name);
     for (const i of this.axes) {
@@ -96,7 +96,7 @@ export class Problems extends Asker {
     this.shown = key;
     this.count.textContent = n ? ` ${n}` : "";
     const words = this.found ? [paragraph(`${this.#words()}${old ? " That was before the last edit." : ""}`)] : [];
-    const rows = found.slice(0, 100).map((finding) => link(finding.text, () => this.page.goTo(finding.object, finding.place)));
+    const rows = found.slice(0, 100).map((finding) => link(store.said(finding.text), () => this.page.goTo(finding.object, finding.place)));
     const name = refused?.row == null ? "" : store.net?.points.get(refused.row)?.name ?? "", first = refused?.text.split("\n")[0] ?? "";
     const last = refused ? [paragraph("Refused last:"), name ? link(first, () => this.page.goTo(name, refused.place)) : paragraph(first)] : [];
     if (refused) last[1].title = refused.all;

@@ -26,7 +26,7 @@ export function restoreLooks(page) {
   }
 }
 
-const NAMES = ["paper", "ink", "soft", "grid", "water", "live", "spike", "comb", "hot", "ghost",
+const NAMES = ["paper", "ink", "soft", "grid", "rule", "water", "live", "spike", "comb", "hot", "ghost",
   "boundary", "sections", "waterlines", "buttocks", "diagonals", "frames"];
 
 /** @param {HTMLElement} root @returns {Record<string, string>} */

@@ -12,8 +12,8 @@ export function drawHandles(view, g, ink) {
   const {store} = view, {net, selection, hover, held, refusal} = store;
   if (!net) return;
   const shown = new Set(view.rows());
-  for (const row of dotsOf(view)) dot(view, g, ink, row, 3, false);
-  if (refusal) for (const row of refusal.named) if (shown.has(row) && row !== refusal.row) ring(view, g, ink, row, true);
+  for (const row of dotsOf(view)) if (!view.framed(...view.atPlace(store.placeOf(row) ?? [NaN, NaN, NaN]))) dot(view, g, ink, row, 3, false);
+  if (refusal) for (const row of refusal.named) if (shown.has(row) && row !== refusal.row && !view.framed(...view.atPlace(store.placeOf(row) ?? [NaN, NaN, NaN]))) ring(view, g, ink, row, true);
   if (hover.row !== null && shown.has(hover.row)) dot(view, g, ink, hover.row, 4.5, true);
   if (store.theirs && shown.has(store.theirs.row)) {
     const {author, row, frame} = store.theirs, place = frame?.places.get(row) ?? store.places.get(row);

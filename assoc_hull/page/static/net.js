@@ -26,6 +26,8 @@ export class Net {
     /** @type {Map<number, {line: Line, name: string}>} */
     this.curves = new Map();
     for (const line of this.lines) line.curves.forEach((id, i) => this.curves.set(id, {line, name: line.names[i]}));
+    /** Names of curves, the longest first. */
+    this.longest = [...this.curves.values()].map(({name}) => name).sort((p, q) => q.length - p.length);
     /** @type {Map<number, Point>} */
     this.points = new Map();
     const table = message.points;
@@ -60,9 +62,9 @@ export class Net {
     return (named.find(([, each]) => alike(each.name) === wanted) ?? named.find(([, each]) => alike(each.line.name) === wanted))?.[0] ?? null;
   }
 
-  /** The point of a name, or of the two lines given in the other order. @param {string} name */
+  /** The point of a name, as it is written or said, or of the two lines given in the other order. @param {string} name */
   find(name) {
-    const wanted = alike(name);
+    const [, sort, n, line] = /^(given|placed) point (\d+) of (.+)$/i.exec(name.trim()) ?? [], wanted = alike(line ? `${line} @ ${sort.toLowerCase() === "given" ? "adopted" : "placed"} ${n}` : name);
     for (const point of this.points.values()) if (alike(point.name) === wanted || (point.label && alike(point.label) === wanted)) return point.row;
     const [, one, other, rest] = /^(.+?)\s*[x×]\s+(.+?)(\s*#\d+)?$/i.exec(name.trim()) ?? [];
     if (!other) return null;
@@ -84,6 +86,15 @@ export class Net {
     return found;
   }
 
+  /** A sentence of the library as a person at this page says it: `BTK 0.92 @ adopted 5` is given point 5 of BTK 0.92. @param {string} text */
+  said(text) {
+    // Calls of the library are no buttons of this page.
+    return text.replace(/ \((?:edit|hull)\.\w+[^)]*\)/g, "").replace("make it shared", "choose the role “shared”").replace("; lengths are in m, 50 mm is 0.05", "").replace(/^faired by a noise of (.+?), stated: (\d+ points could move).+/, "waviness of $1 is taken out: $2").replace(/(.+?) @ (adopted|placed) (\d+)/g, (whole, before, sort, n) => {
+      const line = this.longest.find((name) => before.endsWith(name) && !/\w/.test(before[before.length - name.length - 1] ?? " "));
+      return line === undefined ? whole : `${before.slice(0, before.length - line.length)}${sort === "placed" ? sort : "given"} point ${n} of ${line}`;
+    });
+  }
+
   /** @param {Point} point */
   sortWords(point) { return SORTS[point.sort] ?? ""; }
 
@@ -100,6 +111,7 @@ export class Net {
     if (point.free && point.held === 1) return `on a flat: it moves along ${[...point.free].join(", ")}, and is not pulled`;
     if (point.free && point.held === 2) return `on the profile: it moves along ${[...point.free].join(", ")}, and is not pulled`;
     if (point.free) return `move along ${[...point.free].join(", ")}, or pull the hull`;
+    if (point.held) return `computed, on ${point.held === 1 ? "a flat" : "the profile"}: move a point of ${this.curveName(point.driver) || "that line"}`;
     return "computed: pull the hull here";
   }
 

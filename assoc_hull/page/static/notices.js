@@ -56,7 +56,7 @@ export class Speaker {
     const {held, overlay, net} = store, now = performance.now();
     if (!held || !overlay || held.amount === null || now - this.last < PAUSE) return;
     this.last = now;
-    const name = net?.points.get(held.row)?.name ?? "";
+    const name = store.said(net?.points.get(held.row)?.name ?? "");
     this.say(`${name}, ${held.how} ${(1e3 * held.amount).toFixed(1)} millimetres, ${overlay.frame.curves.size} curves follow, ${VOLUME} about ${signed(overlay.frame.volume, 1, "cubic metres")}`);
   }
 }
@@ -68,10 +68,12 @@ export function writeFoot(page) {
   page.root.classList.toggle("gone", gone);
   page.banner.hidden = !gone && !store.problem;
   page.banner.textContent = gone ? store.reason : store.problem ?? "";
+  const touch = matchMedia("(pointer: coarse)").matches; // there is neither wheel nor key
   const hints = store.shaping ? "Re-shape: click where the line is to pass, drag a place, Backspace removes the last, Enter shows the answer, Esc gives up"
-    : held?.how === "pull" ? "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
-    : held ? "Move: Alt is ten times finer, Shift locks an axis, Esc cancels"
-    : store.selection.row !== null ? "Drag, or use the arrows: 1 mm, Shift 10 mm, Alt 0.1 mm" : "Click a point or a line; drag the ground to pan, the wheel zooms";
+    : held?.how === "pull" ? touch ? "Pull: a second finger cancels; Fine is ten times finer" : "Pull: wheel changes the radius, Alt is ten times finer, Esc cancels"
+    : held ? touch ? "Move: a second finger cancels; Fine is ten times finer" : "Move: Alt is ten times finer, Shift locks an axis, Esc cancels"
+    : store.selection.row !== null ? touch ? "Drag the point, or press −1 mm and +1 mm" : "Drag, or use the arrows: 1 mm, Shift 10 mm, Alt 0.1 mm"
+    : touch ? "Tap a point or a line; drag the ground to pan, two fingers zoom" : "Click a point or a line; drag the ground to pan, the wheel zooms";
   // What was said is read before it gives way to a hint.
   const said = !held && performance.now() - page.said.at < READ ? page.said.words : "";
   page.status.textContent = store.connection === "connecting" ? "Connecting" : said || hints;
@@ -79,5 +81,5 @@ export function writeFoot(page) {
   const view = page.activeView(), pixel = 1e3 / (held?.how === "move" && held.free === "x" ? view.axis.s : view.sy) * ((held ?? page.store.tools).fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
   const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
   const drawn = store.magnified && store.show.movement ? `movement is drawn × ${store.magnified.toLocaleString("en")}` : "";
-  page.figures.textContent = overlay && held ? [gear, radius, drawn, held.waiting ? "catching up" : `computed in ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.net?.points.get(store.theirs.row)?.name ?? "a point"}` : drawn ? drawn : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
+  page.figures.textContent = overlay && held ? [gear, radius, drawn, held.waiting ? "catching up" : `computed in ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.said(store.net?.points.get(store.theirs.row)?.name ?? "a point")}` : drawn ? drawn : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
 }

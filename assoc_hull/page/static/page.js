@@ -5,6 +5,7 @@ import {ACTIONS, Keys, keyWords} from "./actions.js";
 import {Hand} from "./hand.js";
 import {CROSSING, Net} from "./net.js";
 import {GHOST, LIVE, NET, PUBLISHED, THEIRS, VERSION, parseFrame} from "./wire.js";
+import {LONG} from "./asker.js";
 import {READ, Speaker, placeBubble, writeFoot} from "./notices.js";
 import {keepLooks, layRows, readInk, restoreLooks, themeOf} from "./looks.js";
 import {Panel} from "./panel.js";
@@ -70,6 +71,8 @@ export class Page {
     /** Numbers of an edit that is being made, and of an undo or redo, 0 if none. */
     this.applying = this.turning = 0;
     this.back = false;
+    /** Whether the edit that is being made is a pull, which has a radius. */
+    this.pulls = false;
     /** The number of the ghost that is waited for or shown, and who asked for it. */
     this.wanted = 0;
     this.shower = /** @type {{dropped: () => void} | null} */ (null);
@@ -123,25 +126,25 @@ export class Page {
       hand.done(message);
       for (const each of this.panel.askers) each.done(message);
       store.last = {...message, drawn: store.drawn, state: store.state};
-      this.say(`${message.name}: ${count(message.relofted, "curve")} followed.`);
+      this.say(`${store.said(message.name)}: ${count(message.relofted, "curve")} followed.`);
       store.changed("panel");
       if (!this.making) this.keys.resume();
     } else if (message.t === "hold") {
       store.theirs = message.row === null ? null : {author: message.author, row: message.row, frame: null};
-      if (store.theirs) this.speaker.say(`${message.author} holds ${store.net?.points.get(message.row)?.name ?? "a point"}`);
+      if (store.theirs) this.speaker.say(`${message.author} holds ${store.said(store.net?.points.get(message.row)?.name ?? "a point")}`);
       store.changed("overlay", "panel");
     } else if (message.t === "theirs") {
       store.last = {...message, drawn: store.drawn, state: store.state};
       store.changed("panel");
-      this.speaker.say(`${message.author} has made: ${message.name}`);
+      this.speaker.say(`${message.author} has made: ${store.said(message.name)}`);
     } else if (message.t === "answer") {
-      if (message.id === this.turning) this.say(this.back ? `Taken back: ${store.history.redo}.` : `Made again: ${store.history.undo}.`);
+      if (message.id === this.turning) this.say(store.said(this.back ? `Taken back: ${store.history.redo}.` : `Made again: ${store.history.undo}.`));
       this.panel.answer(message);
     }
     else if (message.t === "problem") {
       if (!this.panel.askers.some((each) => each.problem(message))) {
         hand.problem(message);
-        store.problem = message.text;
+        store.problem = store.said(message.text);
         store.changed("panel", "overlay");
       }
     }
@@ -150,7 +153,8 @@ export class Page {
 
   /** An edit that was typed is refused: said at the point. @param {any} message */
   #refusedHere(message) {
-    const {store} = this, row = store.selection.row, all = message.reasons.join("\n"), text = reasonWords(message.reasons);
+    const {store} = this, row = store.selection.row, all = message.reasons.join("\n"), text = store.said(reasonWords(message.reasons, this.pulls));
+    this.said.words = ""; // it is not being made any more
     store.refusal = {text, all, row, place: row === null ? null : [...(store.places.get(row) ?? [])], named: store.net?.named(all) ?? []};
     store.changed("overlay", "panel");
   }
@@ -368,7 +372,12 @@ export class Page {
   apply(name, ops) {
     this.keys.finish();
     this.store.refusal = this.store.problem = null;
-    return this.applying = this.request({t: "apply", name: name.slice(0, 190), ops});
+    this.pulls = /** @type {{op?: string}[]} */ (ops).some(({op}) => op === "pull");
+    const id = this.applying = this.request({t: "apply", name: name.slice(0, 190), ops});
+    setTimeout(() => {
+      if (this.applying === id) this.say(`${this.store.said(name)}: it is being made …`);
+    }, LONG);
+    return id;
   }
 
   /** @param {string} name */
@@ -380,10 +389,11 @@ export class Page {
   }
 
   cancel() {
-    for (const each of Object.values(this.pointers)) each.cancel();
     if (!this.store.held) return;
+    for (const each of Object.values(this.pointers)) each.cancel();
     this.hand.cancel();
     this.store.refusal = null; // with what was refused
+    this.store.changed("overlay", "panel");
   }
 
   /** The window loses the focus, or the connection breaks: what is in hand is let go. */

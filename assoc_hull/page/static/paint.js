@@ -9,6 +9,7 @@ import {drawBeside, drawPicture} from "./files.js";
 /** @typedef {Record<string, string>} Ink */
 
 const LEAST_MOVED = 1e-4; // m
+const SLIGHT = 8; // times less than the most is drawn faintly
 
 /** @param {View} view @param {Ink} ink */
 export function paintHull(view, ink) {
@@ -41,6 +42,7 @@ export function paintHull(view, ink) {
   g.setLineDash([]);
   g.globalAlpha = 1;
   view.written = [];
+  view.frame = [];
   if (view.store.show.labels) drawLabels(view, g, ink);
 }
 
@@ -134,6 +136,7 @@ export function paintOverlay(view, ink) {
   if (store.show.combs) for (const id of combed(view)) drawComb(view, g, ink, id, id === chosen);
   // A name is read through what moves: below is the line that it names.
   for (const {box: [l, t, r, b]} of view.written.slice(1)) g.clearRect(l - 1, t, r - l + 2, b - t);
+  for (const [l, t, r, b] of view.frame) g.clearRect(l, t, r - l, b - t);
   drawHandles(view, g, ink);
 }
 
@@ -161,19 +164,25 @@ function stroke(view, g, id, colour, width) {
 /** A variant, or what follows the hand of another, dashed. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {Frame} frame */
 function drawGhost(view, g, ink, frame) {
   const {net, curves, show, overlay} = view.store, moved = movementOf(frame, curves), between = movementOf(frame, curves, true);
-  g.beginPath();
-  for (const [id, c] of frame.curves) {
-    const line = net?.lineOf(id), by = moved.get(id);
-    if (!line || !view.shows(line)) continue;
-    const far = (/** @type {number} */ i) => by ? Math.hypot(by[3 * i], by[3 * i + 1], by[3 * i + 2]) : Infinity, middle = between.get(id);
-    // What lies where it is published would only hide it.
-    view.trace(g, c, line, by ? (i) => Math.max(far(i), far(i + 1), middle?.[i] ?? 0) >= LEAST_MOVED : undefined);
-  }
+  const top = Math.max(farthestDrawn(frame, curves), 1e-3), wire = view.kind === "wire";
   g.strokeStyle = ink.live;
-  g.lineWidth = view.kind === "wire" ? 0.7 : 1;
+  g.lineWidth = wire ? 0.7 : 1;
   g.setLineDash([5, 3]);
-  g.globalAlpha = view.kind === "wire" ? 0.4 : 0.8;
-  g.stroke();
+  // What lies where it is published would only hide it, and what moves far less than the most is no more than touched.
+  for (const [low, high, alpha] of [[LEAST_MOVED, top / SLIGHT, 0.2], [Math.max(top / SLIGHT, LEAST_MOVED), Infinity, 0.85]]) {
+    g.beginPath();
+    for (const [id, c] of frame.curves) {
+      const line = net?.lineOf(id), by = moved.get(id);
+      if (!line || !view.shows(line)) continue;
+      const far = (/** @type {number} */ i) => by ? Math.hypot(by[3 * i], by[3 * i + 1], by[3 * i + 2]) : Infinity, middle = between.get(id);
+      view.trace(g, c, line, (i) => {
+        const most = Math.max(far(i), far(i + 1), middle?.[i] ?? 0);
+        return most >= low && (most < high || high === Infinity);
+      });
+    }
+    g.globalAlpha = wire ? alpha / 2 : alpha;
+    g.stroke();
+  }
   g.globalAlpha = 1;
   g.setLineDash([]);
   if (show.movement && !overlay && view.kind !== "wire") drawSpikes(view, g, ink, frame, moved);

@@ -38,11 +38,13 @@ export class Panel {
     this.pressed = false;
     /** @type {any[]} */
     this.waiting = [];
-    element.addEventListener("pointerdown", () => this.pressed = true);
-    // A button that is let go elsewhere is known by the next move.
-    for (const event of ["pointerup", "pointercancel", "pointermove"]) element.ownerDocument.addEventListener(event, (each) => {
-      if (this.pressed && !(/** @type {PointerEvent} */ (each).buttons)) setTimeout(() => this.#release());
+    // A list that is opened, a scroll bar and a menu of the browser keep for themselves that the pointer is let go.
+    element.addEventListener("pointerdown", ({button, target}) => this.pressed = button === 0 && target instanceof Element && target.closest("button, summary, label") !== null);
+    // A button that is let go elsewhere is known by the next move, or by a key.
+    for (const event of ["pointerup", "pointercancel", "pointermove", "keydown", "dragend"]) element.ownerDocument.addEventListener(event, (each) => {
+      if (this.pressed && !(each instanceof PointerEvent && each.buttons)) setTimeout(() => this.#release());
     }, {capture: true, signal: page.options.within});
+    addEventListener("blur", () => { if (this.pressed) this.#release(); }, {signal: page.options.within});
     /** @type {HTMLInputElement[]} */
     this.fields = [];
     this.shownRow = /** @type {number | null | undefined} */ (undefined);
@@ -178,7 +180,7 @@ export class Panel {
       field.dataset.typed = "yes";
     });
     this.#table(box, [
-      ["name", point.label || point.name],
+      ["name", point.label || store.said(point.name)],
       ["kind", store.net.sortWords(point)],
       ["role", point.driver >= 0 ? link(role, () => store.select(null, point.driver)) : role],
       ["line passes", store.net.kindWords(point)],
@@ -267,14 +269,14 @@ export class Panel {
     if (!last) return this.#words(box, "Drag a point: all lines that follow move with it. Esc takes it back.");
     const {undo, redo} = store.history;
     // What was told of an edit is no longer so once it is taken back.
-    if (last.state !== store.state) return this.#table(box, [["last", undo ?? "none: the hull is as it came"], ...(redo === null ? [] : [/** @type {[string, string]} */ (["taken back", redo])])]);
+    if (last.state !== store.state) return this.#table(box, [["last", undo === null ? "none: the hull is as it came" : store.said(undo)], ...(redo === null ? [] : [/** @type {[string, string]} */ (["taken back", store.said(redo)])])]);
     this.#table(box, [
-      ["last", last.name],
+      ["last", store.said(last.name)],
       ...(last.author ? [/** @type {[string, string]} */ (["made by", last.author])] : []),
       ["follow", count(last.relofted, "curve")],
       ["hull moved", farWords(last.normal, last.drawn) || "nowhere"],
       ["inflections", last.inflections ? `${last.inflections} new` : "none new"],
-      ...last.notes.slice(0, 4).map((/** @type {string} */ note) => /** @type {[string, string]} */ (["note", note])),
+      ...last.notes.slice(0, 4).map((/** @type {string} */ note) => /** @type {[string, string]} */ (["note", store.said(note)])),
     ]);
   }
 

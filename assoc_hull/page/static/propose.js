@@ -32,8 +32,9 @@ export class Offer extends Asker {
     /** @type {any} */
     this.what = null;
     this.ready = false;
-    /** What is said once it is made. */
+    /** What is said once it is made, and the edit that this is said of. */
     this.made = "";
+    this.edit = {name: "", state: -1};
   }
 
   /** @param {{t: string, [name: string]: unknown}} message @param {string} words @param {object} what */
@@ -47,7 +48,7 @@ export class Offer extends Asker {
   /** Tells what it would do; it can be made unless it is refused. @param {Cost} cost @param {string} words */
   tell({refused}, words) {
     this.ready = !refused.length;
-    this.words.textContent = this.ready ? words : `${reasonWords(refused)}\nNothing is changed.`;
+    this.words.textContent = this.page.store.said(this.ready ? words : `${reasonWords(refused)}\nNothing is changed.`);
     this.page.say(this.words.textContent);
     this.page.store.changed("panel");
   }
@@ -61,6 +62,16 @@ export class Offer extends Asker {
   render() {
     // Somebody has edited the hull: it would be another answer.
     if (this.what && this.what.state !== this.page.store.state) this.#forget();
+    this.#tellEdit();
+  }
+
+  /** What is said of an edit holds while it is the last one; taken back, it can be made again. */
+  #tellEdit() {
+    const {edit: {name, state}, words, made, page: {store}} = this;
+    if (state < 0 || state === store.state) return;
+    const {undo, redo} = store.history, back = `Taken back: ${store.said(name)}. Redo makes it again.`;
+    if (words.textContent === made || words.textContent === back) words.textContent = undo === name ? made : redo === name ? back : "";
+    if (!words.textContent) this.edit.state = -1;
   }
 
   #forget() {
@@ -80,11 +91,12 @@ export class Offer extends Asker {
     this.#forget();
   }
 
-  /** @param {{id: number}} message */
+  /** @param {{id: number, name: string}} message */
   done(message) {
     if (!message.id || message.id !== this.asked) return;
     this.#forget();
     this.words.textContent = this.made;
+    this.edit = {name: message.name, state: this.made ? this.page.store.state : -1};
   }
 
   /** @param {{id: number, text: string}} message */
@@ -114,7 +126,7 @@ export class Proposal extends Offer {
   show(name, ops, draft = false) {
     // Asked once more: it was seen, and is wanted.
     if (this.ready && !draft && !this.what.draft && this.what.state === this.page.store.state && JSON.stringify(this.what.ops) === JSON.stringify(ops)) return void this.apply();
-    this.offer({t: "preview", ops}, `${name}: looking what follows …${/"fair":true/.test(JSON.stringify(ops)) ? " A fair answer takes some seconds; Esc gives up." : ""}`, {name, ops, draft});
+    this.offer({t: "preview", ops}, `${this.page.store.said(name)}: looking what follows …${/"fair":true/.test(JSON.stringify(ops)) ? " A fair answer takes some seconds; Esc gives up." : ""}`, {name, ops, draft});
   }
 
   render() {

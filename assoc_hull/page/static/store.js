@@ -62,6 +62,9 @@ export class Store {
     this.listeners = new Set();
   }
 
+  /** A sentence of the library, as a person says it. @param {string} text */
+  said(text) { return this.net?.said(text) ?? text; }
+
   /** @param {...Stale} what */
   changed(...what) { for (const each of what) for (const listener of this.listeners) listener(each); }
 

@@ -14,7 +14,7 @@ export const millimetres = (metres) => {
 export const signed = (value, digits, unit) => {
   const size = Math.abs(value).toFixed(digits);
   const sign = Number(size) === 0 ? "±" : value < 0 ? "−" : "+";
-  return `${sign}${size} ${unit}`;
+  return `${sign}${size}${unit && ` ${unit}`}`;
 };
 /** One word and one symbol wherever it is told. */
 export const VOLUME = "volume ∇";

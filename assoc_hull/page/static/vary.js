@@ -29,6 +29,9 @@ export class Vary extends Offer {
     this.found = [];
     /** The number of the answer that tells limits: each takes a moment. */
     this.limits = 0;
+    /** The number of the answer that tells values anew, after an edit, an undo, a redo. */
+    this.renewed = 0;
+    this.made = "The hull is varied: one edit. Ctrl+Z takes it back.";
     this.choice = make("select", {ariaLabel: "parameter of the hull", onchange: () => this.#choose()});
     this.about = paragraph("");
     this.field = make("input", {inputMode: "decimal", onkeydown: (/** @type {KeyboardEvent} */ event) => {
@@ -46,14 +49,21 @@ export class Vary extends Offer {
 
   all() {
     this.ask({t: "parameters"}, "Looking …");
+    this.key = String(this.page.store.state);
     this.led = true;
+  }
+
+  render() {
+    super.render();
+    if (!this.form.hidden) this.fresh(String(this.page.store.state), () => { this.renewed = this.page.request({t: "parameters"}); });
   }
 
   #chosen() { return this.found.find(({name}) => name === this.choice.value); }
 
   #wish() { return {set: {[this.choice.value]: typedNumber(this.field)}, accept: this.unfair.checked}; }
 
-  #choose() {
+  /** @param {string} [typed] what stays in the field, and what is said below it */
+  #choose(typed) {
     const found = this.#chosen();
     if (!found || found.value === null) return;
     const unit = found.unit === "-" ? "" : ` ${found.unit}`;
@@ -65,9 +75,9 @@ export class Vary extends Offer {
       Object.assign(found, each);
       this.about.textContent = told + (each.reason ?? limitWords(each, unit));
     };
-    this.field.value = found.value.toFixed(3);
+    this.field.value = typed ?? found.value.toFixed(3);
     this.field.setAttribute("aria-label", `wanted ${found.name}${unit && `,${unit}`}`);
-    this.words.textContent = "";
+    if (typed === undefined) this.words.textContent = "";
     this.steps.forEach((each, i) => each.textContent = `${i ? "+" : "−"}${STEPS[found.unit] ?? STEPS["-"]}${unit}`);
   }
 
@@ -104,12 +114,16 @@ export class Vary extends Offer {
   answer(message) {
     const name = this.choice.value;
     if (message.id === this.limits) return this.onLimits?.(message.value.find((/** @type {Parameter} */ each) => each.name === name));
-    if (message.id !== this.asked || !message.value) return;
-    if (this.asked !== this.ghost) {
+    const anew = message.id === this.renewed;
+    if (!anew && message.id !== this.asked || !message.value) return;
+    if (anew || this.asked !== this.ghost) {
+      const old = this.#chosen()?.value?.toFixed(3);
       this.found = message.value.filter((/** @type {Parameter} */ each) => each.value !== null && each.reason === null);
       this.choice.replaceChildren(...this.found.map((each) => new Option(`${each.name.replace(/_deg$/, "").replaceAll("_", " ")}${each.unit === "-" ? "" : `, ${each.unit}`}`, each.name)));
       if (this.found.some((each) => each.name === name)) this.choice.value = name;
       this.form.hidden = false;
+      // What was typed stays when the hull is edited meanwhile.
+      if (anew) return this.#choose(this.choice.value === name && typedNumber(this.field).toFixed(3) !== old ? this.field.value : this.#chosen()?.value?.toFixed(3));
       this.#choose();
       this.words.textContent = `${this.found.length} parameters can be varied.`;
       return;
@@ -117,12 +131,5 @@ export class Vary extends Offer {
     const {volume, lcb} = message.value;
     this.tell({...message.value, refused: []}, `Ghost: ${costWords(message.value, this.page.store)}; then ${VOLUME} ${volume.toFixed(2)} m³, LCB ${lcb.toFixed(3)} m. Nothing is changed yet: Enter or Apply makes it.`);
     this.words.scrollIntoView({block: "nearest"});
-  }
-
-  /** @param {{id: number}} message */
-  done(message) {
-    const mine = message.id && message.id === this.asked;
-    super.done(message);
-    if (mine) this.all();
   }
 }

@@ -12,7 +12,7 @@ export const TITLES = {body: "Body plan", profile: "Profile", half: "Half-breadt
 const OWN = {body: ["sections", "frames"], profile: ["buttocks"], half: ["waterlines", "diagonals"], wire: []};
 const PLANE = {body: [1, 2], profile: [0, 2], half: [0, 1], wire: [0, 2]};
 const MARGINS = {body: [46, 52, 16, 36], profile: [46, 38, 16, 34], half: [46, 38, 16, 34], wire: [20, 30, 20, 20]};
-const FLAT = 1e-6;
+const FLAT = 1e-6, WIDE = 600; // m, px
 
 export class View {
   /** @param {Kind} kind @param {Store} store @param {Axis} axis @param {HTMLElement} parent */
@@ -51,6 +51,8 @@ export class View {
     this.picture = null;
     /** Names on the drawing; the first is the title. @type {Name[]} */
     this.written = [];
+    /** Boxes at the edge, of names of the grid alone. @type {number[][]} */
+    this.frame = [];
     /** @type {Map<string, number>} */
     this.scales = new Map();
   }
@@ -98,8 +100,15 @@ export class View {
   /** Whether its lines stand upright, as stations do. */
   get steep() { return this.kind === "profile" && this.store.squeeze > 2; }
 
-  /** Left, above, right, below, px; names that stand upright need more. */
-  get margins() { return this.steep ? [46, 54, 46, 34] : MARGINS[this.kind]; }
+  /** Left, above, right, below, px; names that stand upright need more. @returns {number[]} */
+  get margins() {
+    const usual = this.steep ? [46, 54, 46, 34] : MARGINS[this.kind];
+    // Names of the lines next to the stem stand above and before it.
+    return this.width > WIDE && usual[2] === 16 && this.partner ? [usual[0], usual[1], 46, usual[3]] : usual;
+  }
+
+  /** Whether the frame of names covers a place of the screen. @param {number} x @param {number} y */
+  framed(x, y) { return this.frame.some(([l, t, r, b]) => x >= l && y >= t && x <= r && y <= b); }
 
   get midship() { return (this.store.net?.particulars.length ?? 0) / 2; }
 
@@ -352,6 +361,7 @@ export function pathsOf(view) {
 /** @param {View} view @param {number} x @param {number} y @param {number} reach @returns {number | null} */
 export function nearestPoint(view, x, y, reach) {
   let best = null, least = reach * reach;
+  if (view.framed(x, y)) return null;
   const chosen = view.store.selection.curve;
   for (const row of view.rows()) {
     const place = view.store.placeOf(row);
@@ -372,6 +382,7 @@ export function nearestPoint(view, x, y, reach) {
 /** @param {View} view @param {number} x @param {number} y @param {number} reach @returns {number | null} */
 export function nearestCurve(view, x, y, reach) {
   let best = null, least = reach * reach;
+  if (view.framed(x, y)) return null;
   for (const {id, path} of pathsOf(view)) {
     for (let i = 0; i + 3 < path.length; i += 2) {
       const x0 = path[i], y0 = path[i + 1], dx = path[i + 2] - x0, dy = path[i + 3] - y0;

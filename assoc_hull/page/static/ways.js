@@ -1,5 +1,7 @@
 // The ways to what is chosen, named, found, or next.
 
+import {evaluate} from "./hermite.js";
+
 /** Points of a curve in their order along it. @param {Store} store @param {number} id @returns {number[]} */
 export function alongCurve(store, id) {
   const c = store.curves.get(id), rows = store.net?.rowsOf.get(id) ?? [];
@@ -25,20 +27,40 @@ export function choose(page, row, curve, whole = false) {
   store.select(row, curve);
   store.marked = null;
   bring(page, whole);
-  page.say(point && net ? `${point.name}, ${net.roleWords(point)}` : curve === null ? "" : net?.curveName(curve) ?? "");
+  page.say(point && net ? `${net.said(point.name)}, ${net.roleWords(point)}` : curve === null ? "" : net?.curveName(curve) ?? "");
 }
 
-/** Brings what is chosen into the picture, where it is not seen: a point to the middle, a line as large as it fits. @param {Page} page @param {boolean} whole */
+const INSET = [[48, 9, 9, 38], [0.3, 0.3, 0.3, 0.3]]; // px within which it is seen; parts of the view to which its nearest part comes
+const PARTS = 6; // of a segment
+
+/** Brings what is chosen into the picture, where it is not seen: a point to the middle; a line as large as it fits, or its nearest part, also in the view that draws it in its plane. @param {Page} page @param {boolean} whole */
 function bring(page, whole) {
-  const {store} = page, {selection} = store, view = page.activeView(), curve = selection.curve === null ? undefined : store.curveNow(selection.curve);
-  const xyz = selection.row === null ? curve?.xyz : store.placeOf(selection.row);
-  if (!xyz || view.kind === "wire") return;
-  const seen = (/** @type {number} */ i) => {
-    const [x, y] = view.atPlace([...xyz.subarray(3 * i, 3 * i + 3)]);
-    return x >= 9 && y >= 9 && x <= view.width - 9 && y <= view.height - 9;
-  }, ends = Array.from({length: xyz.length / 3}, (_, i) => seen(i)), [x, y] = view.atPlace(xyz);
-  if (whole || selection.row !== null ? !ends.every(Boolean) : !ends.some(Boolean)) selection.row === null ? view.enclose(xyz) : view.pan(view.width / 2 - x, view.height / 2 - y);
+  const {store, root} = page, {selection} = store, {row, curve} = selection, c = curve === null ? undefined : store.curveNow(curve), place = row === null ? undefined : store.placeOf(row);
+  const active = page.activeView(), line = curve === null ? undefined : store.net?.lineOf(curve), own = Object.values(page.views).filter((view) => view.kind !== "wire" && view.shown && line !== undefined && view.shows(line));
+  if (place && active.kind !== "wire") {
+    const [x, y] = active.atPlace(place);
+    if (!inView(active, x, y)) active.pan(active.width / 2 - x, active.height / 2 - y);
+  } else if (!place && c) for (const view of new Set([active, ...own])) if (view.kind !== "wire") bringLine(view, c, whole);
+  // On a narrow screen the drawing lies above the list.
+  root.querySelector(".views")?.scrollIntoView({block: "nearest"});
   store.changed("overlay");
+}
+
+/** @param {View} view @param {number} x @param {number} y */
+const inView = (view, x, y) => x >= INSET[0][0] && y >= INSET[0][1] && x <= view.width - INSET[0][2] && y <= view.height - INSET[0][3];
+
+/** @param {View} view @param {Curve} c @param {boolean} whole */
+function bringLine(view, c, whole) {
+  const at = new Float64Array(9), places = Array.from({length: PARTS * (c.n - 1) + 1}, (_, k) => {
+    const segment = Math.min(Math.floor(k / PARTS), c.n - 2);
+    evaluate(c, segment, k / PARTS - segment, at);
+    return view.atPlace(at);
+  });
+  if (places.every(([x, y]) => inView(view, x, y)) || !whole && places.some(([x, y]) => inView(view, x, y))) return;
+  if (whole) return view.enclose(c.xyz);
+  const [l, t, r, b] = INSET[1], low = [l * view.width, t * view.height], high = [view.width - r * view.width, view.height - b * view.height];
+  const ways = places.map((each) => each.map((value, i) => Math.min(Math.max(value, low[i]), high[i]) - value)).sort((p, q) => Math.hypot(...p) - Math.hypot(...q));
+  view.pan(ways[0][0], ways[0][1]);
 }
 
 /** Shows all of the chosen line, or the chosen point near enough for millimetres; a second time changes nothing. @param {Page} page */
@@ -67,7 +89,7 @@ export function goTo(page, object, place, curve) {
   store.changed("hull", "overlay");
   // On a narrow screen the drawing lies above the list.
   root.querySelector(".views")?.scrollIntoView({block: "nearest"});
-  page.say(`${object} at (${[...at].map((each) => each.toFixed(3)).join(", ")}) m`);
+  page.say(`${store.said(object)} at (${[...at].map((each) => each.toFixed(3)).join(", ")}) m`);
 }
 
 /** Chooses a point or a line by its name. @param {Page} page @param {string} name */

@@ -6,7 +6,7 @@ import {test} from "node:test";
 import {ACTIONS, keyName, keyWords} from "./actions.js";
 import {evaluate, middleMovement, normalMovement} from "./hermite.js";
 import {Predictor} from "./hand.js";
-import {alike} from "./net.js";
+import {Net, alike} from "./net.js";
 import {NET, parseFrame} from "./wire.js";
 
 const given = JSON.parse(readFileSync("given.json", "utf8")), raw = readFileSync("net.frame");
@@ -117,4 +117,15 @@ test("names in a row stand apart, within the row, each as near as can be", async
   assert.deepEqual(spread([50, 50, 50], [10, 10, 10], 0, 100), [40, 50, 60]);
   assert.deepEqual(spread([1, 2, 99], [10, 20, 10], 0, 100).map((x) => Math.round(x)), [5, 20, 95]);
   assert.deepEqual(spread([], [], 0, 100), []);
+});
+
+test("a sentence names single points as a person says them", () => {
+  const column = (...each) => each, points = {row: column(7), name: column("BTK 0.92 @ adopted 5"), label: column(""), a: column(3), b: column(-1), sort: column(2), role: column(-1), driver: column(-1), kind: column([0, 0]), free: column("x"), held: column(0)};
+  const line = {id: 0, name: "BTK 0.92", family: "buttocks", axis: 1, offset: 1, boundary: 0, curves: [3], names: ["BTK 0.92"]}, net = new Net({particulars: {}, lines: [line], points});
+  assert.equal(net.said("lead BTK 0.92 by BTK 0.92 @ adopted 5, 3.0 mm"), "lead BTK 0.92 by given point 5 of BTK 0.92, 3.0 mm");
+  assert.equal(net.said("BTK 0.92 @ placed 1 and BTK 0.92 @ placed 2"), "placed point 1 of BTK 0.92 and placed point 2 of BTK 0.92");
+  assert.equal(net.said("faired by a noise of 2 mm, stated: 185 points could move, rms 0.20 mm, largest 1.42 mm"), "waviness of 2 mm is taken out: 185 points could move");
+  assert.equal(net.said("of another hull: ST 9 @ adopted 5"), "of another hull: ST 9 @ adopted 5");
+  assert.equal(net.find("given point 5 of btk 0,92"), 7);
+  assert.equal(net.find("BTK 0.92 @ adopted 5"), 7);
 });
