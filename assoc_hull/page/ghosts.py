@@ -11,7 +11,7 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import EditReport
 from assoc_hull.edit.shapes import joined
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.hull.hull import Hull
