@@ -11,8 +11,8 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.edit.step import EditReport
 from assoc_hull.edit.shapes import joined
+from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.hull.hull import Hull
 from assoc_hull.model.objects import Point
