@@ -86,22 +86,23 @@ class Connection:
 
     async def _first(self) -> Hello | None:
         """Wait for the first message, and let nobody in without the token."""
-        found = await self._opening()
+        try:
+            async with asyncio.timeout(_PATIENCE):
+                text = await self._text()
+        except TimeoutError:
+            # A page on a busy machine comes late: it is to try again, not to give up.
+            await self._close("no first message came", _AGAIN)
+            return None
+        found = None if text is None else self._let_in(text)
         if isinstance(found, str):
             await self._close(found)
             return None
         return found
 
-    async def _opening(self) -> Hello | str | None:
-        """Give the first message, or why nobody is let in with it; None where the page has gone."""
+    def _let_in(self, text: str) -> Hello | str:
+        """Give what a first message says, or why nobody is let in with it."""
         try:
-            async with asyncio.timeout(_PATIENCE):
-                text = await self._text()
-            if text is None:
-                return None
             hello = parse(text)
-        except TimeoutError:
-            return "no first message came"
         except BadInputError as error:
             return str(error)
         if not isinstance(hello, Hello):

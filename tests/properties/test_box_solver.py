@@ -67,7 +67,7 @@ def test_what_is_given_where_sets_run_out_belongs_together(
     gradient = dense @ rng.normal(0.0, 1.0, size)
     bound = rng.uniform(0.05, 1.0, size) * (rng.random(size) > 0.1)
     with pytest.MonkeyPatch.context() as patch:
-        for name, value in (("_SETS", sets), ("_PATIENCE", patience), ("_STEPS", steps)):
+        for name, value in (("_ACTIVE_SETS", sets), ("_PATIENCE", patience), ("_STEPS", steps)):
             patch.setattr(fair_solution, name, value)
         found = solve_in_box(csr_array(dense), gradient, -bound, bound, rng.integers(-1, 2, size))
     assert (np.abs(found.values) <= bound).all()
@@ -97,7 +97,7 @@ def test_sets_that_run_out_without_a_ring_are_followed_by_the_way_from_within(se
         return within(box)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(fair_solution, "_SETS", sets)
+        patch.setattr(fair_solution, "_ACTIVE_SETS", sets)
         patch.setattr(fair_solution._Box, "from_within", counted)
         found = solve_in_box(csr_array(dense), gradient, -bound, bound)
     assert came == [1]

@@ -9,7 +9,7 @@ import pytest
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from assoc_hull.page import PageServer
+from assoc_hull.page import PageServer, connection
 from assoc_hull.page.connection import Connection
 from assoc_hull.page.wire import FrameKind, unpack
 from tests.conftest import Shipped
@@ -96,6 +96,24 @@ def test_a_first_message_that_is_none_ends_the_connection(server: PageServer) ->
     for message in (b"\1\2\3", "garbage", '{"t": "undo", "id": 1}', "[" * 9000):
         ((code, _),) = asyncio.run(run(message))
         assert code == 1008
+
+
+def test_a_page_that_comes_late_is_told_to_try_again(
+    server: PageServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a busy machine: its socket is closed with a code after which pages open another one."""
+    monkeypatch.setattr(connection, "_PATIENCE", 0.05)
+    host, _ = place(server)
+
+    async def run() -> list[Any]:
+        found = list[Any]()
+        async with connect(f"ws://{host}/socket", origin=f"http://{host}") as socket:  # type: ignore[arg-type]
+            await listen(socket, found)
+        return found
+
+    ((code, words),) = asyncio.run(run())
+    assert code == 1012
+    assert "no first message" in words
 
 
 def test_nonsense_is_told_and_in_the_end_closes_the_connection(server: PageServer) -> None:
