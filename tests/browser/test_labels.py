@@ -108,7 +108,7 @@ def test_a_flat_that_is_seen_from_its_edge_has_no_name(
 
 
 def test_buttocks_are_named_next_to_the_stem(open_page: Open, bulk_carrier: ah.Hull) -> None:
-    """All that lie a pixel apart there, and all waterlines, have a name fore too."""
+    """Lines a pixel apart there have a name fore too, all but three for which there is no room."""
     hand = open_page(bulk_carrier.snapshot())
     for kind, family, all_but in (("profile", "BTK ", {"0.5"}), ("half", "WL ", {"4", "15"})):
         middle = hand.ask("(p, kind) => p.views[kind].at(150, 0, 0, 1)[0]", kind)

@@ -56,8 +56,8 @@ export function makeBar(page) {
     /** @param {Particulars} ship @param {number} lines @param {number} points */
     name(ship, lines, points) {
       title.textContent = ship.name;
-      dims.textContent = `Lpp ${ship.length.toFixed(2)} · B ${ship.breadth.toFixed(2)} · T ${ship.draught.toFixed(2)} · D ${ship.depth.toFixed(2)} m · ${lines} lines · ${points} points`;
-      dims.title = dims.textContent;
+      dims.textContent = `Lpp ${ship.length.toFixed(2)} · B ${ship.breadth.toFixed(2)} · T ${ship.draught.toFixed(2)} · D ${ship.depth.toFixed(2)} m · ${lines} lines`;
+      dims.title = `${dims.textContent} · ${points} points`;
     },
     render() {
       for (const [id, button] of buttons) {
