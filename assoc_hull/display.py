@@ -18,6 +18,7 @@ from typing import Protocol
 __all__ = [
     "Printer",
     "ShownAsText",
+    "counted",
     "html_room",
     "html_table",
     "html_text",
@@ -54,6 +55,18 @@ class ShownAsText:
 
     def _repr_html_(self) -> str:
         return html_text(str(self))
+
+
+def counted(number: int, thing: str) -> str:
+    """Give a number of things in words.
+
+    Examples
+    --------
+    >>> from assoc_hull.display import counted
+    >>> counted(1, "curve"), counted(0, "curve")
+    ('1 curve', '0 curves')
+    """
+    return f"{number} {thing}{'' if number == 1 else 's'}"
 
 
 def shortened(text: str, most: int = 90) -> str:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import attrs
 
+from assoc_hull.display import counted
 from assoc_hull.edit.step import SAME_MOVEMENT, EditReport, Movement
 from assoc_hull.hull import Hull
 from assoc_hull.model.address import AddressBook
@@ -338,13 +339,16 @@ def edit_words(hull: Hull, report: EditReport, indent: str = "  ") -> str:
     """Say what an edit did: what followed, what moved most, what remains."""
     groups = followers(hull, report)
     counts = ", ".join(f"{name} {len(names)}" for name, names in groups.items())
+    bent = sum(count for _, count in report.inflections)
+    stopped = f"at {counted(report.cut_off, 'point')} that came out as they were"
     lines = [
-        f"{indent}followed     {len(report.relofted)} curves re-lofted ({counts or 'none'})",
-        f"{indent}stopped      at {report.cut_off} points that came out as they were",
+        f"{indent}followed     {counted(len(report.relofted), 'curve')} re-lofted "
+        f"({counts or 'none'})",
+        *([f"{indent}stopped      {stopped}"] if report.cut_off else []),
         *(wrap_text(name, names, indent) for name, names in groups.items()),
         *_moved(hull, report, indent),
         f"{indent}largest gap  {1e3 * report.largest_gap:.2f} mm; "
-        f"{sum(count for _, count in report.inflections)} new inflections",
+        f"{counted(bent, 'new inflection') if bent else 'no new inflection'}",
         *lists(hull, report, indent),
     ]
     return "\n".join(lines)

@@ -28,7 +28,7 @@ from functools import cached_property
 
 import numpy as np
 
-from assoc_hull.display import ShownAsText
+from assoc_hull.display import ShownAsText, counted
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.followup.redraw_features import redrawable_points
 from assoc_hull.edit.modification import Extent, Pending
@@ -136,20 +136,16 @@ class Dirty(ShownAsText, Mapping[str, DirtyCause]):
         curves, points = (
             sum(map(kind, self._by_name.values())) for kind in (Node.is_curve, Node.is_point)
         )
-        counts = [_counted(curves, "curve"), _counted(points, "point")]
+        counts = [counted(curves, "curve"), counted(points, "point")]
         if more := len(self._by_name) - curves - points:
-            counts.append(_counted(more, "definition"))
+            counts.append(counted(more, "definition"))
         found = f"dirty because of {joined_words(self.asked)}: {', '.join(counts)}"
         if rest := len(self._nodes.perhaps):
-            found += f"; {_counted(rest, 'more curve')} if a gap opens or a feature bends"
+            found += f"; {counted(rest, 'more curve')} if a gap opens or a feature bends"
         return found
 
     def __repr__(self) -> str:
         return f"<Dirty: {self}>"
-
-
-def _counted(count: int, what: str) -> str:
-    return f"{count} {what}{'' if count == 1 else 's'}"
 
 
 _NONE: IntArray = np.zeros(0, np.int64)

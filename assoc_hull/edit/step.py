@@ -14,6 +14,7 @@ import attrs
 from assoc_hull.display import (
     Printer,
     ShownAsText,
+    counted,
     html_room,
     html_table,
     screenful,
@@ -282,7 +283,7 @@ class EditReport(ShownAsText):
     def __str__(self) -> str:
         if not self.changed:
             return f"{self.name}: nothing changed, no step was added"
-        parts = [f"{self.name}: {len(self.relofted)} curves re-lofted"]
+        parts = [f"{self.name}: {counted(len(self.relofted), 'curve')} re-lofted"]
         parts += [f"{each[0]}: {change_text(each)}" for each in self.definitions]
         if self.largest is not None:
             parts += movement_words(self.largest, self.largest_normal)
@@ -302,7 +303,7 @@ class EditReports(tuple[EditReport, ...]):
     __slots__ = ()
 
     def __repr__(self) -> str:
-        count = f"{len(self)} edit{'' if len(self) == 1 else 's'}"
+        count = counted(len(self), "edit")
         return f"<{count}: {shortened(', '.join(each.name for each in self))}>" if self else "()"
 
     def __str__(self) -> str:

@@ -14,7 +14,7 @@ from scipy.sparse import csc_array
 from scipy.spatial import cKDTree
 
 from assoc_hull.analysis.fairness.batten_problem import BattenProblem
-from assoc_hull.display import ShownAsText
+from assoc_hull.display import ShownAsText, counted
 from assoc_hull.edit.net_battens import net_battens
 from assoc_hull.fairing.offsets_doctor import ALARM
 from assoc_hull.fairing.table_residuals import best_change, robust_scale
@@ -105,7 +105,7 @@ class NetDoctorReport(ShownAsText):
 
     def __str__(self) -> str:
         number = len(self.alarms)
-        lines = [f"{self.name}: {number} point{'' if number == 1 else 's'} called (score above 15)"]
+        lines = [f"{self.name}: {counted(number, 'point')} called (score above 15)"]
         lines += [f"  {each}" for each in self.alarms]
         rest = [each for each in self.findings if not each.alarm]
         if rest:

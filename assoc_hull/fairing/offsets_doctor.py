@@ -16,7 +16,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.display import ShownAsText
+from assoc_hull.display import ShownAsText, counted
 from assoc_hull.fairing.table_residuals import (
     EQUAL,
     LONE,
@@ -296,7 +296,7 @@ class DoctorReport(ShownAsText):
 
     def __str__(self) -> str:
         unit = f" ({self.unit})" if self.unit else ""
-        lines = [f"{self.name}{unit}: {_count(len(self.alarms), 'slip')} called (score above 15)"]
+        lines = [f"{self.name}{unit}: {counted(len(self.alarms), 'slip')} called (score above 15)"]
         lines += [f"  {each}" for each in self.alarms]
         if self.overrun:
             lines.append("  and more: whole rows or columns are wrong, put them right first")
@@ -308,7 +308,7 @@ class DoctorReport(ShownAsText):
         if self.remarks:
             lines += [f"by rule ({len(self.remarks)})", *(f"  {each}" for each in self.remarks)]
         lines.append(
-            f"checked: {_count(self.both, 'cell')} in both directions, {self.single} in one; "
+            f"checked: {counted(self.both, 'cell')} in both directions, {self.single} in one; "
             f"not checked: {len(self.unchecked)}"
         )
         if self.unchecked:
@@ -326,10 +326,6 @@ class DoctorReport(ShownAsText):
 
 _NAMED = 4
 """So many cells that were not checked are named in the text."""
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}{'' if number == 1 else 's'}"
 
 
 def examine(table: PrintedOffsets, top: int = 10) -> DoctorReport:

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 
 import attrs
 
-from assoc_hull.display import ShownAsText
+from assoc_hull.display import ShownAsText, counted
 from assoc_hull.errors import NotSoundError
 
 __all__ = [
@@ -81,13 +81,9 @@ class Verdict(ShownAsText):
     def __str__(self) -> str:
         if not self.faults:
             return f"{self.word} ({len(self.suspicions)})" if self.suspicions else self.word
-        counts = [_count(self.faults, "fault")]
-        counts += [_count(self.suspicions, "suspicion")] if self.suspicions else []
+        counts = [counted(len(self.faults), "fault")]
+        counts += [counted(len(self.suspicions), "suspicion")] if self.suspicions else []
         return f"{self.word} ({', '.join(counts)})"
-
-
-def _count(found: tuple[ImportFinding, ...], word: str) -> str:
-    return f"{len(found)} {word}{'' if len(found) == 1 else 's'}"
 
 
 @attrs.define

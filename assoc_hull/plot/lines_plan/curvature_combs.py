@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
+from assoc_hull.display import counted
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.fairness.combs import comb_teeth
@@ -253,7 +254,7 @@ def _panel(
     bends = len(comb.inflections)
     words = (
         f"1:{denominator:g};  tooth of 10 mm: curvature {per_ten:g} 1/m, "
-        f"radius {1.0 / per_ten:.4g} m;  {bends} inflection{'' if bends == 1 else 's'} (dots)"
+        f"radius {1.0 / per_ten:.4g} m;  {counted(bends, 'inflection')} (dots)"
         + (f";  {cut} longer teeth are cut" if cut else "")
     )
     place = (_MARGIN * factor, top - 2.0 * factor)
