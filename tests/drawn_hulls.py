@@ -168,3 +168,24 @@ def half_chined(path: Path) -> ah.Hull:
     return ah.read(
         written(lines, path / "half.csv"), draught=2.5, ap=0.0, deck="closed", accept=True
     )
+
+
+def sharpie(path: Path) -> ah.Hull:
+    """Read a double-ended boat of 12 m with a flat bottom: chine and keel meet at both its ends."""
+
+    def bottom(x: float) -> float:
+        return 0.3 * ((x - 6.0) / 6.0) ** 2
+
+    def rib(x: float) -> list[Place]:
+        half, low = 1.0 - ((x - 6.0) / 6.0) ** 2, bottom(x)
+        return [(x, 0.0, low), (x, half, low), (x, 1.4 * half, 1.2)]
+
+    along = np.linspace(0.0, 12.0, 121).tolist()
+    lines = [(f"ST {x}", rib(float(x))) for x in range(1, 12)]
+    lines += [
+        ("profile", [(0.0, 0.0, 1.2), *((x, 0.0, bottom(x)) for x in along), (12.0, 0.0, 1.2)]),
+        ("deck edge", [rib(x)[-1] for x in along]),
+    ]
+    return ah.read(
+        written(lines, path / "sharpie.csv"), draught=0.6, ap=0.0, deck="closed", accept=True
+    )

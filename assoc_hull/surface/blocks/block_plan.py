@@ -533,9 +533,15 @@ def _quad(
     apart = _NARROW if ends else _APART
     node, turn = four_corners(region, length, [*first, *ends], second, never, apart=apart)
     if len(node) < 4 and ends:
-        # Where a chine runs into the keel there are three sides: one of them is cut in two.
+        # Where a chine runs into the keel there are three sides, or two: others than it are cut.
+        within = [
+            node
+            for chord in (layer.above, layer.below)
+            if chord is not None
+            for node in region.begin(chord.half[1:]).tolist()
+        ]
         node, turn = four_corners(
-            region, length, [*first, *ends], second, never, least=0.0, apart=apart
+            region, length, [*first, *ends], second, [*never, *within], least=0.0, apart=apart
         )
     if len(node) != 4:
         raise BadInputError(

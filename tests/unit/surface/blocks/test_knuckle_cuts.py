@@ -14,7 +14,7 @@ from assoc_hull.surface.blocks.cell_regions import CellRegion
 from assoc_hull.surface.blocks.end_cuts import knuckle_cuts
 from assoc_hull.surface.blocks.fitted_surface import surface_faults
 from assoc_hull.surface.cells.net_faces import sound_cells
-from tests.drawn_hulls import box_barge, half_chined, ro_pax, transom_boat
+from tests.drawn_hulls import box_barge, half_chined, ro_pax, sharpie, transom_boat
 
 HULLS: dict[str, tuple[Callable[[Path], ah.Hull], float]] = {
     "barge": (box_barge, 1e-5), "chine boat": (transom_boat, 5e-4), "ro-pax": (ro_pax, 2e-3),
@@ -105,3 +105,13 @@ def test_a_knuckle_of_less_than_a_degree_stays_within_its_block() -> None:
     assert cuts_of(net) == []
     assert "upper knuckle is no crease" in told_of(net)
     assert "sections turn by 0." in told_of(net)
+
+
+def test_a_chine_is_one_side_of_its_block_where_it_ends_on_the_keel(tmp_path: Path) -> None:
+    """The bottom of a sharpie has two sides, chine and keel: corners lie on the keel only."""
+    hull = sharpie(tmp_path)
+    _, bottom = block_plans(sound_cells(gather_net(hull.state)), hull.particulars.length)
+    place = bottom.core.region.graph.place[list(bottom.core.corner)]
+    assert place[:, 0].tolist() == pytest.approx([0.0, 12.0, 11.0, 1.0], abs=1e-3)
+    assert bottom.core.side("v0").tolist() == list(bottom.seams[0].half)
+    assert len(bottom.rails) == 11
