@@ -37,7 +37,7 @@ def test_keys_alone_pull_make_a_knuckle_and_take_it_away(open_page: Open, hull: 
     keys(hand, "Enter")
     hand.until("p => p.store.history.edits === 1")
     assert hull.history[-1].name == f"pull {POINT} by -5 mm"
-    keys(hand, "Escape", "n")
+    keys(hand, "n")
     hand.page.locator("aside").get_by_text("Enter applies").wait_for()
     keys(hand, "Enter")
     hand.until("p => p.store.history.edits === 2")
@@ -193,3 +193,19 @@ def test_no_name_to_sign_with_leaves_the_one_before(open_page: Open, hull: ah.Hu
         field.fill(typed)
         field.press("Enter")
         assert field.input_value() == kept
+
+
+def test_keys_act_in_the_drawing_after_a_pull_was_typed(open_page: Open, hull: ah.Hull) -> None:
+    """The focus leaves the field: Ctrl+Z takes the pull back, and no letter is typed into it."""
+    hand = open_page(hull)
+    hand.ask("(p, name) => p.find(name)", POINT)
+    keys(hand, "g")
+    field = hand.page.get_by_label("pull outward, mm")
+    expect(field).to_be_focused()
+    field.fill("5")
+    keys(hand, "Enter")
+    hand.until("p => p.store.history.edits === 1")
+    keys(hand, "v")
+    expect(field).to_have_value("")
+    keys(hand, "Control+z")
+    hand.until("p => p.store.history.edits === 0")

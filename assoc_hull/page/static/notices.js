@@ -80,6 +80,6 @@ export function writeFoot(page) {
   // Across the ship, unless the point goes along it only: lengths may be compressed.
   const view = page.activeView(), pixel = 1e3 / (held?.how === "move" && held.free === "x" ? view.axis.s : view.sy) * ((held ?? page.store.tools).fine ? 0.1 : 1), gear = held ? `1 px is ${pixel.toFixed(pixel < 10 ? 1 : 0)} mm` : "";
   const radius = held?.radius ? `felt over ${held.radius[0].toFixed(1)} × ${held.radius[1].toFixed(1)} m` : "";
-  const drawn = store.magnified && store.show.movement ? `movement is drawn × ${store.magnified.toLocaleString("en")}` : "";
+  const drawn = store.magnified && store.show.movement && !held?.refused ? `movement is drawn × ${store.magnified.toLocaleString("en")}` : "";
   page.figures.textContent = overlay && held ? [gear, radius, drawn, held.waiting ? "catching up" : `computed in ${overlay.frame.ms.toFixed(1)} ms`].filter(Boolean).join(" · ") : store.theirs ? `${store.theirs.author} holds ${store.said(store.net?.points.get(store.theirs.row)?.name ?? "a point")}` : drawn ? drawn : store.file ? `kept in ${store.file}` : store.net ? "in memory" : "";
 }

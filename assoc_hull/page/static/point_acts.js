@@ -107,8 +107,8 @@ export class PointActs {
     if (!Number.isFinite(d) || d === 0 || Math.abs(d) > FARTHEST) return page.say(`"${this.field.value}" is no pull: type millimetres, such as 5 or -2.5`);
     const name = `pull ${point.name} by ${far} mm`, ops = [{op: "pull", point: point.name, d, ...(tools.radius ? {radius: tools.radius} : {}), ...(tools.fair ? {fair: true} : {})}];
     this.field.value = "";
-    // Outside the drawing Enter would pull once more.
     if (tools.fair) page.panel.proposal.show(`${name}, answered fairly`, ops);
     else page.apply(name, ops);
+    page.leaveField(this.field); // in the drawing letters and Ctrl+Z act, and Enter applies a ghost
   }
 }
