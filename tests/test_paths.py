@@ -29,7 +29,7 @@ MOST = {
     # where the map is compiled its flat form and its kernels are four modules more
     # the search of the certificate, images of points, and the program that then serves are compiled
     # too: 107 without any of that, which serves from the twentieth run of a process on
-    # tunnels and bodies beside the net are carried by a hook, `mapped_attachments`, and
+    # tunnels and bodies beside the net are carried by a hook of `edit.space_map`, and
     # reports name the points that moved most by their lines (`model.address`)
     "a variation of the breadth": 114,
 }
