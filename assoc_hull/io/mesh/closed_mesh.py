@@ -8,6 +8,7 @@ the mesh stays closed. That is checked on what is written, not on what it was ma
 from __future__ import annotations
 
 import io
+import math
 import os
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
@@ -44,7 +45,17 @@ __all__ = [
 _RECORD = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("more", "<u2")])
 _STL_TITLE = 80
 _DECIMALS = 6
-"""Digits behind the point of texts in m: a micrometre."""
+"""Digits behind the point of texts at least: a micrometre in m."""
+
+_PLACES = 8
+"""A text rounds by no more than half of this power of a tenth of the length: of a model of 0.5 m a
+micrometre would fold small facets, and let a body beside it touch it."""
+
+
+def _decimals(values: FloatArray) -> int:
+    """Give the digits behind the point with which a text holds a mesh, (v, 3)."""
+    size = float(np.ptp(values, axis=0).max(initial=0.0))
+    return _DECIMALS if size <= 0.0 else max(_DECIMALS, _PLACES - math.floor(math.log10(size)))
 
 
 @attrs.frozen(eq=False)
@@ -63,6 +74,8 @@ class FiledMesh:
         The groups.
     title : str
         What the mesh is, for forms that can say so.
+    decimals : int
+        Digits behind the point of a text.
     """
 
     xyz: FloatArray
@@ -70,6 +83,7 @@ class FiledMesh:
     group: IntArray
     names: tuple[str, ...]
     title: str
+    decimals: int = _DECIMALS
 
     @classmethod
     def of(
@@ -110,8 +124,9 @@ class FiledMesh:
             groups.append(mesh.group[order[found.origin]])
             count += len(found.xyz)
         return cls(
-            np.concatenate(xyz), np.concatenate(faces), np.concatenate(groups), mesh.names, title
-        )
+            np.concatenate(xyz), np.concatenate(faces), np.concatenate(groups), mesh.names, title,
+            _decimals(exact),
+        )  # fmt: skip
 
     @property
     def runs(self) -> list[tuple[str, IntArray]]:
@@ -166,14 +181,15 @@ def _stl_text(mesh: FiledMesh) -> bytes:
         for normal, corners in zip(normals[mine].tolist(), places, strict=True):
             rows.append(" facet normal " + " ".join(f"{each:.6f}" for each in normal))
             rows.append("  outer loop")
-            rows += ["   vertex " + _numbers(corner) for corner in corners]
+            rows += ["   vertex " + _numbers(corner, mesh.decimals) for corner in corners]
             rows += ["  endloop", " endfacet"]
         rows.append(f"endsolid {_word(name)}")
     return "\n".join([*rows, ""]).encode("ascii", "replace")
 
 
 def _obj(mesh: FiledMesh) -> bytes:
-    rows = [f"# {mesh.title}", *("v " + _numbers(each) for each in mesh.xyz.tolist())]
+    places = mesh.xyz.tolist()
+    rows = [f"# {mesh.title}", *("v " + _numbers(each, mesh.decimals) for each in places)]
     for name, part in mesh.runs:
         rows.append(f"g {_word(name)}")
         rows += [f"f {a} {b} {c}" for a, b, c in (part + 1).tolist()]
@@ -218,8 +234,8 @@ def _glb(mesh: FiledMesh) -> bytes:
     return out.getvalue()
 
 
-def _numbers(values: list[float]) -> str:
-    return " ".join(f"{each:.{_DECIMALS}f}" for each in values)
+def _numbers(values: list[float], decimals: int) -> str:
+    return " ".join(f"{each:.{decimals}f}" for each in values)
 
 
 def _word(name: str) -> str:
@@ -233,7 +249,7 @@ def _single(values: FloatArray) -> FloatArray:
 
 
 def _written(values: FloatArray) -> FloatArray:
-    return np.round(values, _DECIMALS) + 0.0
+    return np.round(values, _decimals(values)) + 0.0
 
 
 def _exact(values: FloatArray) -> FloatArray:

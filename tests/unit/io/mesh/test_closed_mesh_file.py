@@ -212,6 +212,22 @@ def test_a_corner_that_rounding_folds_upon_itself_becomes_one_point(
     assert found.volume == pytest.approx(10.0 * 3.4 * 4.0 / 3.0, rel=1e-6)
 
 
+@pytest.mark.parametrize("form", ["stl-text", "obj"])
+def test_texts_of_a_small_model_are_as_near_as_those_of_a_ship(
+    mesh: ClosedMesh, tmp_path: Path, form: str
+) -> None:
+    """Rounded by half of 1e-8 of the length: at 1/256, 0.4 m, a micrometre would show."""
+    path, small = tmp_path / f"model{ENDINGS[form]}", mesh.xyz / 256.0
+    report = write_mesh(attrs.evolve(mesh, xyz=small), path, form)
+    found = loaded(path)
+    assert found.is_watertight
+    assert (report.left_out, report.triangles) == (0, len(mesh.triangle))
+    length = float(np.ptp(small[:, 0]))
+    off = np.abs(sorted_rows(found.vertices * 256.0) - sorted_rows(mesh.xyz)).max() / 256.0
+    assert off <= 0.51e-8 * length
+    assert found.volume == pytest.approx(mesh.volume / 256.0**3, rel=1e-7)
+
+
 def test_a_closed_mesh_becomes_a_net_again(tmp_path: Path) -> None:
     """`read` cuts stations, waterlines and buttocks from the STL, without its deck or mirror."""
     made = closed_mesh(ah.examples.wigley(stations=15, waterlines=8))
