@@ -520,9 +520,8 @@ def sub_step_count(state: HullState, shift: PointDisplacements) -> int:
         steps *= 2
     if steps > _STEPS:
         raise BadInputError(
-            f"{address(state, int(shift.rows[far.argmax()]))} would move by {largest:.4g} m, "
-            "farther than all others",
-            "in an edit",
+            f"points would move by up to {largest:.4g} m",
+            f"at {address(state, int(shift.rows[far.argmax()]))}",
             f"move by less than {_STEPS * state.tolerances.substep:g} m at a time; lengths "
             "are in m, 50 mm is 0.05",
         )
