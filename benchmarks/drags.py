@@ -19,7 +19,7 @@ from time import perf_counter, thread_time
 import attrs
 import numpy as np
 
-from assoc_hull.edit.write_lock import freeze_loaded_objects
+from assoc_hull.edit.garbage_collection import freeze_loaded_objects
 from benchmarks.clock import Figure
 from benchmarks.drag import Dragging
 from benchmarks.net import make_net

@@ -12,11 +12,11 @@ MOST = {
     # `model.change` tells what an edit changed: old steps of a hull in memory hold that alone
     # keys of points are texts when they are asked for, of `model.keys`
     # a move asks `modifications.lead` whether its point leads
-    "a moved point": 48,
+    "a moved point": 49,
     # one run stands in the place of the passes; in numpy it enters what they do to loft and cut
-    "a moved point, by the program": 42,
+    "a moved point, by the program": 43,
     # where points of features moved, `redraw_features` looks whether any is bent
-    "a pull": 54,
+    "a pull": 55,
     # columns are read through `graph.table`, by `column[row]`; a surface that is laid out and one
     # that is put on other lines are one thing, `net_surface`
     "hydrostatics": 27,
@@ -31,7 +31,7 @@ MOST = {
     # too: 107 without any of that, which serves from the twentieth run of a process on
     # tunnels and bodies beside the net are carried by a hook of `edit.space_map`, and
     # reports name the points that moved most by their lines (`model.address`)
-    "a variation of the breadth": 114,
+    "a variation of the breadth": 115,
 }
 """Modules entered, at most. A change that raises a number says why in its commit."""
 

@@ -38,7 +38,7 @@ def add_page(commands: Commands) -> None:
 
 
 def _page(arguments: argparse.Namespace) -> int:
-    from assoc_hull.edit.write_lock import freeze_loaded_objects
+    from assoc_hull.edit.garbage_collection import freeze_loaded_objects
     from assoc_hull.page import PageServer
 
     with PageServer(arguments.hull, port=arguments.port, author=arguments.author) as server:

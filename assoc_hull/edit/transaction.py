@@ -16,12 +16,13 @@ import numpy as np
 
 from assoc_hull.edit.dirty_objects import dirty_nodes
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.garbage_collection import PausedCollector
 from assoc_hull.edit.modification import Extent, Pending
 from assoc_hull.edit.outcome import joined_step
 from assoc_hull.edit.recording import Said, Script, Settings, VariedValues
 from assoc_hull.edit.step import EditReport, Led, Step
 from assoc_hull.edit.update import update
-from assoc_hull.edit.write_lock import PATIENCE, PausedCollector
+from assoc_hull.edit.write_lock import PATIENCE
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.derived import Marked

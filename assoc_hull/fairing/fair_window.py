@@ -1,9 +1,8 @@
 """Fairing as one act, and a window that is faired while a hand draws at it.
 
 A step solves for the points of the window by dense factors, in a fraction of the time of an edit,
-and shows the lines as they would be. Only `commit` edits the hull, and takes the full way.
-
-Fairing as one act: one edit of its own, tried or carried out, and the report of it.
+and shows the lines as they would be. Only `commit` edits the hull, and takes the full way. Fairing
+as one act is one edit of its own, tried or carried out, and the report of it.
 """
 
 from __future__ import annotations

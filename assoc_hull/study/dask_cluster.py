@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING
 import attrs
 
 from assoc_hull.arguments import shown
-from assoc_hull.edit.write_lock import PausedCollector
+from assoc_hull.edit.garbage_collection import PausedCollector
 from assoc_hull.errors import (
     BadInputError,
     ClusterError,

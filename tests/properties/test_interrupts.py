@@ -280,7 +280,7 @@ def test_an_interrupt_of_a_pause_leaves_the_collector_off_until_the_next_at_most
     gc.enable()
     try:
         with contextlib.suppress(KeyboardInterrupt):
-            traced(_move, hull, Tracer(line, ("/edit/write_lock.py",)))
+            traced(_move, hull, Tracer(line, ("/edit/garbage_collection.py",)))
         with hull.edit("next") as edit:
             edit.move("WL 3.75 x ST 5", y=3.17)
         assert gc.isenabled()
