@@ -82,14 +82,16 @@ class VariantNumbers:
         """Its surface, with the bits of a hull that has never been seen."""
         net, size = self.net, self.particulars
         assert net is not None
-        for base in self.parent.layouts:
+        layouts = self.parent.layouts
+        for k, base in enumerate(layouts):
             kept = flotation_on_lines(base, net.batch, net.x, net.place, net.normal, size)
             if kept is not None:
+                layouts.insert(0, layouts.pop(k))  # the next variant is most likely like this one
                 return kept
         base = self.parent.base
         found = flotation_of_lines(base.state, net, base.kinds, size)
         # Another variant may fit it: its numbers are the same, on whichever layout that fits.
-        self.parent.layouts[_LAYOUTS - 1 :] = [found]
+        layouts[:] = [found, *layouts[: _LAYOUTS - 1]]
         return found
 
 
@@ -111,7 +113,7 @@ class ParentNumbers:
         Where the numbers have the parameters of each crossing on its two curves: as a knot, else
         as a meeting; -1 where not.
     layouts : list of Flotation
-        Hulls of its structure whose layouts are at hand, the parent first.
+        Hulls of its structure whose layouts are at hand, that which fitted last first.
     """
 
     net: NetNumbers

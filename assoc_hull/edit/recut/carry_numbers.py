@@ -19,6 +19,8 @@ it. So nothing is lofted, no point comes or goes, and places depend smoothly on 
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import attrs
 import numpy as np
 from numpy.typing import NDArray
@@ -46,7 +48,12 @@ from assoc_hull.geometry.curves import (
     SplineBatch,
     freeze,
 )
-from assoc_hull.geometry.splines.segments import derivative, evaluate
+from assoc_hull.geometry.splines.segments import (
+    derivative,
+    evaluate_with_slope,
+    locate_by_knots,
+    positions,
+)
 from assoc_hull.model.address import address
 from assoc_hull.model.features import Feature
 from assoc_hull.model.index import Index
@@ -122,6 +129,40 @@ def _sliding(work: PointImages) -> IntArray:
     given = (table.driver.data < 0) & ~watched & ~work.direct
     rows: IntArray = live[given[live]]
     return rows
+
+
+@attrs.frozen(eq=False)
+class _Course:
+    """Where n points lie on the curves that they slide along.
+
+    Attributes
+    ----------
+    item : (n,) int
+        The points, among those that slide.
+    curve : (n,) int
+        Curves of a batch.
+    at, low, high : (n,), m
+        Where the points lie on these, and where the curves begin and end.
+    here : (n, 3), m
+        What the curves give there: points that only ride lie a little off.
+    segment : (n,) int
+        The segments of the curves that they lie on: they seldom slide on to others.
+    """
+
+    item: IntArray
+    curve: IntArray
+    at: FloatArray
+    low: FloatArray
+    high: FloatArray
+    here: FloatArray
+    segment: IntArray
+
+    @classmethod
+    def of(cls, batch: SplineBatch, item: IntArray, curve: IntArray, at: FloatArray) -> _Course:
+        low, high = batch.knot[batch.start[curve]], batch.knot[batch.start[curve + 1] - 1]
+        first, u, _ = locate_by_knots(batch, curve, at)
+        here = positions(batch, first, u).T
+        return cls(item, curve, at, low, high, here, first - batch.start[curve])
 
 
 @attrs.frozen(eq=False)
@@ -215,24 +256,27 @@ class _Ways:
     def _places(self, start: FloatArray, way: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give places (k, 3), m, and how they move along either way, (k, 2, 3)."""
         place, along = start.copy(), np.zeros((len(start), 2, 3))
-        for side in (0, 1):
-            there = np.flatnonzero((self.curve[:, side] >= 0) & ~self.barred[:, side])
-            if not len(there):
-                continue
-            curve = self.curve[there, side]
-            low, high = self.batch.knot[self.batch.start[curve]], self._last(curve)
-            at = np.clip(self.at[there, side] + way[there, side], low, high)
-            here = evaluate(self.batch, curve, self.at[there, side])
-            place[there] += evaluate(self.batch, curve, at) - here
-            along[there, side] = derivative(self.batch, curve, at)
+        for side, each in self._open:
+            at = np.clip(each.at + way[each.item, side], each.low, each.high)
+            there, along[each.item, side] = evaluate_with_slope(
+                self.batch, each.curve, at, each.segment
+            )
+            place[each.item] += there - each.here
         lone = self.curve[:, 1] < 0
         place[lone] += way[lone, 1:] * self.straight[lone]
         along[lone, 1] = self.straight[lone]
         return place, along
 
-    def _last(self, curve: IntArray) -> FloatArray:
-        last: FloatArray = self.batch.knot[self.batch.start[curve + 1] - 1]
-        return last
+    @cached_property
+    def _open(self) -> list[tuple[int, _Course]]:
+        """The curves that points slide along, by their side: what no round changes of them."""
+        found = list[tuple[int, _Course]]()
+        for side in (0, 1):
+            item = np.flatnonzero((self.curve[:, side] >= 0) & ~self.barred[:, side])
+            if len(item):
+                curve, at = self.curve[item, side], self.at[item, side]
+                found.append((side, _Course.of(self.batch, item, curve, at)))
+        return found
 
     def _require(self, work: PointImages, image: FloatArray, way: FloatArray) -> None:
         """See that all have come into their planes."""

@@ -32,6 +32,7 @@ __all__ = [
     "curvature",
     "derivative",
     "evaluate",
+    "evaluate_with_slope",
     "last_not_above",
     "locate_by_knots",
     "locate_parameters",
@@ -536,6 +537,21 @@ def derivative(
     result: FloatArray = value.T
     freeze(result)
     return result
+
+
+def evaluate_with_slope(
+    batch: SplineBatch, curve: IntArray, t: FloatArray, guess: NDArray[np.integer] | None = None
+) -> tuple[FloatArray, FloatArray]:
+    """Give points (k, 3), m, and first derivatives (k, 3): the bits of `evaluate` and `derivative`.
+
+    Parameters are looked up once; `guess` as for `derivative`. Not frozen.
+    """
+    segment, fraction, length = locate_by_knots(batch, curve, t, guess)
+    origin, first, second, third = _powers(batch, segment)
+    slope = (first + fraction * (2.0 * second + fraction * (3.0 * third))) / length
+    place = origin + fraction * (first + fraction * (second + fraction * third))
+    _put_ends(batch, segment, fraction, place)
+    return place.T, slope.T
 
 
 def sample(batch: SplineBatch, per_segment: int = 8) -> tuple[IntArray, FloatArray]:
