@@ -27,7 +27,7 @@ from tests.twins import let_examples_give_twins, made_once, packed, twin
 settings.register_profile(
     "default",
     deadline=None,
-    max_examples=50 if LONG else 15,
+    max_examples=50 if LONG else 10,
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.register_profile(

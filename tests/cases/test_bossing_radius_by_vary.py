@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 import assoc_hull as ah
+from tests.long_forms import long_form
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +53,11 @@ def test_a_touch_that_is_grown_over_by_vary_ends_two_pieces(touched: ah.Hull) ->
     assert len(there) == 1
 
 
+@long_form
 def test_a_radius_just_short_of_the_buttock_is_refused_as_a_fold(bulk_carrier: ah.Hull) -> None:
-    """The turn would be sharper than points of the buttock can draw; by its line and place."""
+    """The turn would be sharper than points of the buttock can draw; by its line and place.
+
+    All plans are tried before it is refused, which takes long.
+    """
     with pytest.raises(ah.errors.RefusedEditError, match=r"BTK 1 folds back on itself at \(8\.69"):
         bulk_carrier.vary(set={"bossing_radius": 0.99})

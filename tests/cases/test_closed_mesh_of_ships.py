@@ -8,9 +8,10 @@ import assoc_hull as ah
 from assoc_hull.analysis.net.curve_net import gather_net
 from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh
+from tests.long_forms import LONG
 
 SHIPS = {
-    "dtc": (("shell", "deck", "transom"), 2.5e-4),
+    **({"dtc": (("shell", "deck", "transom"), 2.5e-4)} if LONG else {}),
     "series60_70": (("shell", "deck"), 1.2e-4),
     "bulk_carrier": (("shell", "bossing end", "deck", "transom"), 6e-5),
 }

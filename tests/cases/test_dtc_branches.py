@@ -1,10 +1,10 @@
 """Branch identity on a real hull: lines of the DTC shifted through its bulb and its bossing.
 
 The truth is the path of every meeting in steps of 1 mm (`net_branches`), along which it can
-be followed without doubt. Shifts of 1 and 50 cm must attach each crossing to the branch that this
-path leads to. The steps of 50 cm go along the whole ranges, those of 1 cm where events at the bulb
-are closest together; `make test-long` takes all along the whole ranges, in steps of 10 cm as
-well, and the shifts also in steps of 1 mm round every event, in a quarter of an hour.
+be followed without doubt. Shifts of 50 cm through the bulb must attach each crossing to the branch
+that this path leads to. `make test-long` goes along all ranges, in steps of 10 and 1 cm as well,
+and in steps of 1 mm round every event, in a quarter of an hour. Fine steps are always taken through
+the bulb of a hull whose function is known (`test_bulb_branches`).
 """
 
 from __future__ import annotations
@@ -28,14 +28,9 @@ RANGES = {
 }
 """Group and range (m); by 3 mm beside the planes that other lines have."""
 
-WITHIN = {
-    (0.5, "bulb"): RANGES["bulb"],
-    (0.5, "buttock"): RANGES["buttock"],
-    (0.01, "bulb"): ("waterlines", 14.093, 14.253),
-}
-"""Tried always, by step and place: the range; of the bulb's 12 events some, the closest."""
-
-STEPS = [(step, where) for step in (0.5, 0.1, 0.01) for where in RANGES] if LONG else list(WITHIN)
+STEPS = [(step, where) for step in (0.5, 0.1, 0.01) for where in RANGES]
+if not LONG:
+    STEPS = [(0.5, "bulb")]
 
 
 Truth = Callable[[str], dict[str, list[Branch]]]
@@ -84,7 +79,7 @@ def test_no_crossing_is_attached_wrongly_against_the_path_of_1_mm(
     dtc: ah.Hull, truth: Truth, where: str, step: float
 ) -> None:
     """There and back: every crossing keeps its branch, and every branch its crossing."""
-    low, high = (RANGES[where] if LONG else WITHIN[step, where])[1:]
+    low, high = RANGES[where][1:]
     with taken_back(dtc) as hull:
         watched = watch(hull, where, truth(where), steps(low, high, step))
     assert watched.wrong == []

@@ -18,6 +18,7 @@ from assoc_hull.geometry.floating.sections import areas_at, integrate_slice
 from assoc_hull.geometry.numeric.quadrature import gauss
 from tests import twin_skeg
 from tests.cases.test_twin_skeg import half_area
+from tests.long_forms import draws
 
 SHIPS = ("wigley", "series60_60", "series60_70", "bulk_carrier")
 
@@ -40,7 +41,7 @@ def parts(hull: ah.Hull, position: tuple[float, float]) -> ShipSlices:
 
 
 @pytest.mark.parametrize("name", SHIPS)
-@settings(max_examples=12)
+@settings(max_examples=draws(12))
 @given(place=st.floats(-0.03, 1.04), position=positions)
 def test_parts_on_both_sides_of_any_place_are_the_ship(
     ships: dict[str, ah.Hull], name: str, place: float, position: tuple[float, float]
@@ -61,7 +62,7 @@ def test_parts_on_both_sides_of_any_place_are_the_ship(
 
 
 @pytest.mark.parametrize("name", SHIPS)
-@settings(max_examples=12)
+@settings(max_examples=draws(12))
 @given(place=st.floats(-0.03, 1.03), position=positions)
 def test_a_thin_slice_is_the_integral_of_its_sections(
     ships: dict[str, ah.Hull], name: str, place: float, position: tuple[float, float]

@@ -20,7 +20,7 @@ from assoc_hull.io.cad.faces import sew_surfaces
 from assoc_hull.io.cad.kernel import quiet_kernel
 from assoc_hull.io.cad.write import CadReport, both_sides, cad_bytes, closed_solid
 from assoc_hull.io.slicing.surface_lines import faces_of_file
-from tests.long_forms import LONG
+from tests.long_forms import LONG, long_form
 
 SHIPS = {
     # Edges that join two faces, and free ones: deck edge, rim of the transom.
@@ -95,10 +95,14 @@ def test_a_surface_that_leaves_its_limits_is_written_if_it_is_accepted(tmp_path:
     assert path.exists()
 
 
+@long_form
 def test_halves_that_cross_are_left_out_of_a_rhino_file(
     shipped: Callable[[str], ah.Hull], tmp_path: Path
 ) -> None:
-    """The lines and the mesh are written; the report says where the surface is not sound."""
+    """The lines and the mesh are written; the report says where the surface is not sound.
+
+    That such a surface is written only if it is accepted, the command line is tested for always.
+    """
     pytest.importorskip("rhino3dm")
     report = shipped("plain_ship").export(tmp_path / "hull.3dm")
     (note,) = (each for each in report.left_out if each.kind == "surface")

@@ -12,7 +12,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
 from assoc_hull.hull.results import HullSurface
 from assoc_hull.surface.blocks.fitted_surface import FittedBlock
-from tests.long_forms import LONG
+from tests.long_forms import long_form
 
 BODY, ENDS, MEDIAN = 8.0, 15.0, 1.5  # mm
 SHIPS = ["series60_70", "bulk_carrier", "dtc"]
@@ -161,7 +161,8 @@ def test_lines_left_out_lie_near_it(series60_70: Hull) -> None:
     left_out_within(series60_70, 0, 3.0)
 
 
-@pytest.mark.parametrize("name", ["dtc", "bulk_carrier"][: 2 if LONG else 1])
+@long_form
+@pytest.mark.parametrize("name", ["dtc", "bulk_carrier"])
 def test_lines_left_out_of_large_ships_lie_near_them(
     name: str, request: pytest.FixtureRequest
 ) -> None:

@@ -18,7 +18,7 @@ from tests.fuzz.all_kinds import KINDS
 from tests.fuzz.harvest import CORPUS
 from tests.fuzz.kind import made
 from tests.fuzz.trial import trial
-from tests.long_forms import LONG
+from tests.long_forms import LONG, draws
 
 KEPT = sorted(path for path in CORPUS.rglob("*") if path.is_file())
 TIMES = 4 if LONG else 2
@@ -34,7 +34,7 @@ def test_what_was_once_broken_is_mended(path: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", [name for name in KINDS if name not in SLOW])
-@settings(max_examples=60)
+@settings(max_examples=draws(60))
 @given(rng=st.randoms(use_true_random=False))
 def test_a_changed_input_is_taken_or_refused(name: str, rng: Random) -> None:
     """No traceback, no second line, no file but the one that was asked for, and that whole."""

@@ -10,6 +10,7 @@ from assoc_hull.graph.table import Column
 from assoc_hull.model.change import apply_change, change_of
 from assoc_hull.model.definition.fingerprint import HashTree, fingerprint, root_of
 from assoc_hull.model.tables import TABLES, HullState, copy_state
+from tests.long_forms import draws
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 
 
@@ -41,7 +42,7 @@ def _plain(state: HullState, table: str, name: str, value: object, row: int) -> 
     return value
 
 
-@settings(max_examples=30)
+@settings(max_examples=draws(30))
 @given(st.integers(0, POOL - 1), tasks((*SHAPES, *STRUCTURE), most=5))
 def test_a_change_runs_both_ways_to_the_last_bit(which: int, todo: list[Task]) -> None:
     """Every edit of a session, taken back and made again by its change, leaves the same tables."""
@@ -73,7 +74,7 @@ def compare(hull: ah.Hull, then: dict[str, object]) -> None:
     assert [name for name in then if now[name] != then[name]] == []
 
 
-@settings(max_examples=30)
+@settings(max_examples=draws(30))
 @given(st.integers(0, POOL - 1), tasks((*SHAPES, *STRUCTURE), most=5))
 def test_a_tree_of_which_branches_are_made_anew_is_the_one_made_from_nothing(
     which: int, todo: list[Task]

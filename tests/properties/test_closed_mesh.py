@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.analysis.net.curve_net import CurveNet, gather_net
 from assoc_hull.surface.cells.closed_mesh import mesh_of_net
+from tests.long_forms import draws
 
 
 @pytest.fixture(scope="module")
@@ -16,7 +17,7 @@ def net(series60_70: ah.Hull) -> CurveNet:
     return gather_net(series60_70.state)
 
 
-@settings(max_examples=8)
+@settings(max_examples=draws(8))
 @given(seed=st.integers(0, 2**20), share=st.floats(0.0, 0.75))
 def test_any_choice_of_lines_makes_a_closed_mesh(net: CurveNet, seed: int, share: float) -> None:
     """Up to three of four are left out at random; profile, deck edge and flats stay."""

@@ -39,6 +39,7 @@ from assoc_hull.variation.parameters.field_layout import Layout
 from assoc_hull.variation.request import TOLERANCE
 from tests import variation_strategies as vs
 from tests.conftest import Shipped
+from tests.long_forms import draws
 
 pytest.importorskip("numba")
 
@@ -111,7 +112,7 @@ def edges(regions: Sequence[FieldRegion]) -> FloatArray:
     return np.array(found).reshape(-1, 3)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=draws(60), deadline=None)
 @given(st.lists(layers, min_size=0, max_size=3), vs.places(), st.integers(0, 60))
 def test_maps_of_layers_have_the_bits_of_numpy(
     given_: list[Layer], xyz: FloatArray, count: int
@@ -173,7 +174,7 @@ def assert_features_same(anew: RedrawnFeatures, more: FloatArray, seed: int) -> 
     assert_same(compiled(anew.layers, arcs, anew.map.circles), anew.map, np.concatenate(parts))
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=draws(8), deadline=None)
 @given(vs.maps(0.1, 2), st.integers(1, 10), st.integers(0, 10**6))
 def test_circles_have_the_bits_of_numpy(vmap: VariationMap, count: int, seed: int) -> None:
     """Of any number, in planes across the ship and oblique ones, some as large as asked for."""

@@ -24,6 +24,7 @@ from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.model.tables import HullState
 from tests.conftest import Shipped
+from tests.long_forms import draws
 
 pytest.importorskip("numba")
 
@@ -113,7 +114,7 @@ def test_sound_ships_are_plainly_sound(name: str, shipped: Shipped) -> None:
 
 
 @pytest.mark.parametrize("name", SHIPS)
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=draws(12), deadline=None)
 @given(seed=st.integers(0, 10**6), size=st.sampled_from([1e-4, 0.02, 0.3, 3.0]))
 def test_what_is_plainly_sound_is_doubted_by_nobody(
     name: str, shipped: Shipped, seed: int, size: float

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.certificate.minor_search import LeastMinor, Minor, find_least_minor
+from tests.long_forms import draws
 
 pytest.importorskip("numba")
 
@@ -43,7 +44,7 @@ def both(minor: Minor, enough: float) -> tuple[LeastMinor, LeastMinor]:
     return found[0], found[1]
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=draws(60), deadline=None)
 @given(
     st.lists(st.integers(0, 4), min_size=1, max_size=3), st.integers(0, 10**6), st.booleans(),
     st.sampled_from([0.05, -5.0, 5.0]),

@@ -22,6 +22,7 @@ from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState, copy_state
 from tests.formed import formed
 from tests.independent import closure, relofted, snapshot
+from tests.long_forms import draws
 from tests.properties.test_i03_minimality import passes
 
 Act = dict[str, Any]
@@ -94,7 +95,7 @@ def carry_out(hull: ah.Hull, acts: list[Act]) -> bool:
     return hull.fingerprint != before
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(st.lists(forms(), min_size=1, max_size=3))
 def test_what_is_lofted_is_what_a_new_hull_has_otherwise(acts: list[Act]) -> None:
     """Exactly the curves with an input that differs there, each once, in a closure that is told."""
@@ -119,7 +120,7 @@ def test_what_is_lofted_is_what_a_new_hull_has_otherwise(acts: list[Act]) -> Non
         assert len(set(part.evaluated.tolist())) == len(part.evaluated)
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(st.lists(st.lists(st.one_of(forms(), by_hand()), min_size=1, max_size=2), max_size=5))
 def test_any_edits_leave_a_hull_that_can_be_made_again(edits: list[list[Act]]) -> None:
     """Rebuilt, it has the same bits; detached lines keep theirs; undo and redo are exact."""

@@ -13,6 +13,7 @@ import assoc_hull as ah
 from assoc_hull.model.objects import Crossing, Point
 from tests.cases import places
 from tests.independent import lost_meetings, trouble
+from tests.long_forms import draws
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, hulls, tasks
 
 
@@ -38,7 +39,7 @@ def test_an_adopted_net_is_consistent(number: int) -> None:
     assert_consistent(fresh(number))
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(hulls(), tasks(SHAPES))
 def test_edits_of_shape_leave_a_consistent_hull(hull: ah.Hull, edits: list[Task]) -> None:
     """After moves, pulls, re-shapes, points inserted and deleted, ends and kinds set."""
@@ -49,7 +50,7 @@ def test_edits_of_shape_leave_a_consistent_hull(hull: ah.Hull, edits: list[Task]
         assert_consistent(hull, kept)
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(hulls(), tasks((*SHAPES, *STRUCTURE, *STRUCTURE)))
 def test_edits_of_structure_leave_a_consistent_hull(hull: ah.Hull, edits: list[Task]) -> None:
     """Also when lines come and go and roles change in the same edits."""
@@ -60,7 +61,7 @@ def test_edits_of_structure_leave_a_consistent_hull(hull: ah.Hull, edits: list[T
         assert_consistent(hull, kept)
 
 
-@settings(max_examples=15)
+@settings(max_examples=draws(15))
 @given(hulls(), tasks(("move", "pull", "reshape", "set_end"), largest=0.6, most=3))
 def test_rough_edits_leave_a_consistent_hull(hull: ah.Hull, edits: list[Task]) -> None:
     """Edits of half a metre bear crossings and mend gaps, or are refused."""

@@ -15,6 +15,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.tables import HullState
 from tests.cases import places
 from tests.independent import Snapshot, relofted, snapshot
+from tests.long_forms import draws
 from tests.net_strategies import (
     SHAPES,
     STRUCTURE,
@@ -42,7 +43,7 @@ def assert_local(hull: ah.Hull, before: Snapshot, published: bool = True) -> Non
             assert rise == int(published and before.points[key] != bits), f"{key} rose by {rise}"
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(hulls(), tasks((*SHAPES, *STRUCTURE)))
 def test_an_edit_changes_only_what_it_reaches(hull: ah.Hull, edits: list[Task]) -> None:
     """Bits and revisions, over random edits of every kind, and on the way back by undo."""
@@ -58,7 +59,7 @@ def test_an_edit_changes_only_what_it_reaches(hull: ah.Hull, edits: list[Task]) 
         hull.redo()
 
 
-@settings(max_examples=15)
+@settings(max_examples=draws(15))
 @given(hulls(), tasks(("move",), most=3))
 def test_a_preview_touches_nothing(hull: ah.Hull, edits: list[Task]) -> None:
     """Neither bits nor revisions."""

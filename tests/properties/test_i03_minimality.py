@@ -18,6 +18,7 @@ from assoc_hull.graph.run_update import UpdatePass
 from assoc_hull.model.node import Node
 from tests.cases import places
 from tests.independent import closure, relofted, snapshot
+from tests.long_forms import draws
 from tests.net_strategies import (
     SHAPES,
     STRUCTURE,
@@ -49,7 +50,7 @@ def quiet(report: EditReport) -> bool:
     return not (report.born or report.gone or report.mended)
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(hulls(), tasks((*SHAPES, "set_role")))
 def test_the_curves_lofted_are_those_whose_inputs_changed(hull: ah.Hull, edits: list[Task]) -> None:
     """The report lists exactly the curves that the walk over the tables gives."""
@@ -78,7 +79,7 @@ def needless(report: EditReport, wanted: set[str], task: Task) -> set[str]:
 MOVES_IN_STEPS = {"pull", "reshape", "lead", "straighten", "round", "spread"}
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(hulls(), tasks((*SHAPES, *STRUCTURE)))
 def test_no_pass_evaluates_a_node_twice(hull: ah.Hull, edits: list[Task]) -> None:
     """In the main pass and in each that follows; an edit that stays quiet has only one."""
@@ -92,7 +93,7 @@ def test_no_pass_evaluates_a_node_twice(hull: ah.Hull, edits: list[Task]) -> Non
             assert len(heard) == 1
 
 
-@settings(max_examples=15)
+@settings(max_examples=draws(15))
 @given(hulls(), tasks(("move",)))
 def test_a_second_pass_lofts_only_what_births_deaths_and_mends_touch(
     hull: ah.Hull, edits: list[Task]
@@ -117,7 +118,7 @@ def _curves_of(hull: ah.Hull, rows: tuple[str, ...]) -> set[str]:
     return {hull.state.curves.key[c] for c in table.curve[numbers].ravel().tolist()}
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(hulls(), tasks(("move",), most=3, acts=1))
 def test_a_move_stays_within_the_closure_of_the_role_table(
     hull: ah.Hull, edits: list[Task]

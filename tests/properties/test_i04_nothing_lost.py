@@ -13,6 +13,7 @@ from hypothesis import given, settings
 import assoc_hull as ah
 from assoc_hull.edit.session import Edit
 from assoc_hull.model.kinds import Role, Sort
+from tests.long_forms import draws
 from tests.net_strategies import (
     SHAPES,
     STRUCTURE,
@@ -167,7 +168,7 @@ def decide(hull: ah.Hull) -> None:
         edit.set_role(inner[-1], "shared")
 
 
-@settings(max_examples=40)
+@settings(max_examples=draws(40))
 @given(hulls(), tasks((*SHAPES, *STRUCTURE)))
 def test_what_was_decided_stays(hull: ah.Hull, edits: list[Task]) -> None:
     """Placed points to the last bit, kinds with directions, each end, names, roles.
@@ -218,7 +219,7 @@ GIVES_ROLES = {
 }  # fmt: skip
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(hulls(), tasks((*SHAPES, *STRUCTURE)))
 def test_a_role_changes_only_by_its_own_edit(hull: ah.Hull, edits: list[Task]) -> None:
     """An edit of shape never changes a role."""

@@ -15,6 +15,7 @@ from assoc_hull.edit.step import EditReport
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.tables import HullState
 from tests.independent import Root, lost_meetings, roots, trouble
+from tests.long_forms import draws
 from tests.net_strategies import (
     SHAPES,
     STRUCTURE,
@@ -160,7 +161,7 @@ def assert_orders_kept(before: Orders, hull: ah.Hull) -> None:
         assert [key for key in now if key in old] == [key for key in old if key in now], pair
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(hulls(), tasks(ROUGH, largest=0.8, most=4))
 def test_births_and_deaths_are_reported_and_ids_never_come_back(
     hull: ah.Hull, edits: list[Task]
@@ -184,7 +185,7 @@ def test_births_and_deaths_are_reported_and_ids_never_come_back(
 BENDS = ("insert", "insert", "insert", "move", "set_end", "reshape", "pull")
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(hulls(), tasks((*SHAPES, *BENDS), largest=1.5, most=4, acts=1))
 def test_a_crossing_is_passed_in_one_sense_all_its_life(hull: ah.Hull, edits: list[Task]) -> None:
     """By both of its curves, over rough edits of every kind: the sense is part of its id."""
@@ -194,7 +195,7 @@ def test_a_crossing_is_passed_in_one_sense_all_its_life(hull: ah.Hull, edits: li
             assert_senses_kept(hull, born)
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(hulls(), tasks((*SHAPES, *STRUCTURE), largest=0.2, most=4))
 def test_lines_that_come_and_go_turn_no_crossing_round(hull: ah.Hull, edits: list[Task]) -> None:
     """Nor do roles that change; adopted nets are passed as their keys say."""

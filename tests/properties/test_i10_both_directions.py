@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.model.objects import Point
 from tests.cases import places
+from tests.long_forms import draws
 from tests.net_strategies import POOL, fresh, live_points
 
 
@@ -77,7 +78,7 @@ def one_by_one(hull: ah.Hull, to: dict[str, dict[str, float]], rng: random.Rando
     return quiet
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(st.integers(0, POOL - 1), wishes, st.randoms(use_true_random=False))
 def test_the_same_values_give_the_same_bits(
     number: int, wanted: list[Wish], rng: random.Random
@@ -92,7 +93,7 @@ def test_the_same_values_give_the_same_bits(
         assert hulls[2].fingerprint == hulls[0].fingerprint
 
 
-@settings(max_examples=15)
+@settings(max_examples=draws(15))
 @given(st.integers(0, POOL - 1), wishes, st.randoms(use_true_random=False))
 def test_there_and_back_is_exact(number: int, wanted: list[Wish], rng: random.Random) -> None:
     """The values of the start bring the bits of the start back, without any undo."""
@@ -106,7 +107,7 @@ def test_there_and_back_is_exact(number: int, wanted: list[Wish], rng: random.Ra
         assert hull.fingerprint == start
 
 
-@settings(max_examples=8)
+@settings(max_examples=draws(8))
 @given(st.integers(0, POOL - 1), st.integers(0, 2**16), st.floats(-0.02, 0.02))
 def test_leads_and_switches_of_a_net_give_the_same_bits_in_any_order(
     number: int, which: int, amount: float

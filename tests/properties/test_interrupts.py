@@ -26,7 +26,7 @@ from tests.properties.test_program_edits import Count, by_program
 from tests.properties.test_published_states import content
 
 ROOT = str(Path(ah.__file__).parent)
-COUNT = 80 if LONG else 6
+COUNT = 80 if LONG else 3
 """Interrupts an act; 2,000 and more over all acts in the long form."""
 
 

@@ -11,6 +11,7 @@ from assoc_hull.geometry.curves import CurveData, SplineBatch
 from assoc_hull.geometry.splines.backend import backend, set_backend
 from assoc_hull.geometry.splines.loft import loft, loft_with_signed_zeros
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
+from tests.long_forms import draws
 
 FIELDS = ("knot", "xyz", "leave", "arrive")
 NORMALS = [(1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.48, 0.6, 0.64)]
@@ -74,7 +75,7 @@ counts = st.lists(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=draws(60), deadline=None)
 @given(seeds, counts)
 def test_a_curve_alone_has_the_bits_it_has_in_a_batch(seed: int, sizes: list[int]) -> None:
     """Equal defining data give equal bits, whatever else is in the batch."""
@@ -84,7 +85,7 @@ def test_a_curve_alone_has_the_bits_it_has_in_a_batch(seed: int, sizes: list[int
         assert same_bits(loft(part), batch.curve(index))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=draws(60), deadline=None)
 @given(seeds, counts)
 def test_zeros_of_derivatives_have_no_sign(seed: int, sizes: list[int]) -> None:
     """Those of versions before had, and are the same splines but for that."""
@@ -96,7 +97,7 @@ def test_zeros_of_derivatives_have_no_sign(seed: int, sizes: list[int]) -> None:
         assert not np.signbit(one[one == 0.0]).any()
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=draws(60), deadline=None)
 @given(seeds, counts, st.sampled_from(NORMALS))
 def test_meetings_alone_have_the_bits_they_have_in_a_batch(
     seed: int, sizes: list[int], normal: tuple[float, float, float]
@@ -117,7 +118,7 @@ def test_meetings_alone_have_the_bits_they_have_in_a_batch(
         assert np.array_equal(alone.segment + batch.start[index], together.segment[mine])
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=draws(60), deadline=None)
 @given(seeds, counts, st.sampled_from(NORMALS))
 def test_both_backends_give_the_same_bits(
     seed: int, sizes: list[int], normal: tuple[float, float, float]
@@ -138,7 +139,7 @@ def test_both_backends_give_the_same_bits(
         assert getattr(met, name).tobytes() == getattr(again, name).tobytes()
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=draws(60), deadline=None)
 @given(seeds, st.integers(2, 40))
 def test_signs_alternate_on_any_curve(seed: int, count: int) -> None:
     """Also with planes through knots and as close as rounding allows, signs alternate."""

@@ -34,6 +34,7 @@ from assoc_hull.graph import derived
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model import change as changes
 from assoc_hull.model.packed_change import with_strays
+from tests.long_forms import draws
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 from tests.properties.test_program_edits import Count, by_program, content
 
@@ -88,7 +89,7 @@ def edited(number: int, edits: list[Task], back: int, held: int) -> ah.Hull:
     return hull
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=draws(12), deadline=None)
 @given(number=st.integers(0, POOL - 1), edits=tasks(SHAPES + STRUCTURE), back=st.integers(0, 2))
 def test_old_steps_run_and_tell_as_new_ones(number: int, edits: list[Task], back: int) -> None:
     """Causes, reports and inflections read late, undo and redo of each and all: the same bits."""
@@ -111,7 +112,7 @@ def test_old_steps_run_and_tell_as_new_ones(number: int, edits: list[Task], back
     assert one.verify() == ()
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=draws(12), deadline=None)
 @given(number=st.integers(0, POOL - 1), edits=tasks(SHAPES))
 def test_what_the_numbers_tell_of_an_edit_is_what_was_written(
     number: int, edits: list[Task]

@@ -43,7 +43,7 @@ from assoc_hull.model.program.structure import (
 )
 from assoc_hull.model.tables import HullState, copy_state
 from tests.conftest import Shipped
-from tests.long_forms import LONG
+from tests.long_forms import LONG, draws
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Act, Task, carry_out, fresh, tasks
 
 NUMBERS = tuple(each.name for each in attrs.fields(Values))
@@ -85,7 +85,7 @@ def assert_run_of_all_is_published(hull: ah.Hull) -> None:
     same_numbers(attrs.evolve(values, segment=found.values.segment), found.values)
 
 
-@settings(max_examples=40)
+@settings(max_examples=draws(40))
 @given(number=st.integers(0, POOL - 1), edits=tasks_of_all_kinds)
 def test_a_run_of_all_curves_gives_the_published_numbers(number: int, edits: list[Task]) -> None:
     """On random nets, after edits of every kind, one program after the other."""
@@ -154,7 +154,7 @@ def assert_drags_agree(hull: ah.Hull, rng: np.random.Generator, count: int) -> i
 # A straight run that a drag bends by little is drawn anew on its moved ends.
 @example(number=0, edits=[Task((Act("straighten", 2, 1, 0.0),), "refuse")], seed=17)
 @example(number=0, edits=[Task((Act("straighten", 0, 0, 0.0),), "refuse")], seed=136)
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=draws(25), deadline=None)
 @given(number=st.integers(0, POOL - 1), edits=tasks_of_all_kinds, seed=st.integers(0, 2**32 - 1))
 def test_a_step_of_a_drag_is_the_whole_edit_to_the_bit(
     number: int, edits: list[Task], seed: int

@@ -27,7 +27,7 @@ from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.program.structure import Values
 from tests.conftest import Shipped
-from tests.long_forms import LONG
+from tests.long_forms import LONG, draws
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 
 COLUMNS = ("xyz", "parameter", "spot", "gap", "base", "anchor_from", "alive", "role", "driver")
@@ -124,7 +124,7 @@ def assert_numbers_are_those_of_the_tables(hull: ah.Hull) -> None:
             assert one.tobytes() == two.tobytes(), name
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=draws(30), deadline=None)
 @given(number=st.integers(0, POOL - 1), edits=tasks(SHAPES + STRUCTURE), back=st.integers(0, 2))
 def test_an_edit_by_the_program_is_that_of_the_full_way(
     number: int, edits: list[Task], back: int

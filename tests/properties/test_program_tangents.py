@@ -13,6 +13,7 @@ from assoc_hull.model.program.run_program import ProgramRun, run_program, write_
 from assoc_hull.model.program.structure import Program, PublishedProgram, Values
 from assoc_hull.model.program.tangents import ValueTangents, jacobian, tangents
 from tests.conftest import Shipped
+from tests.long_forms import draws
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 
 tasks_of_all_kinds = tasks(SHAPES + STRUCTURE)
@@ -109,7 +110,7 @@ def assert_reach(program: Program, told: ValueTangents, k: int) -> None:
     assert not told.at[k, still[program.meet_curve]].any()
 
 
-@settings(max_examples=60)
+@settings(max_examples=draws(60))
 @given(number=st.integers(0, POOL - 1), edits=tasks_of_all_kinds, seed=st.integers(0, 2**32 - 1))
 def test_derivatives_are_differences_of_runs(number: int, edits: list[Task], seed: int) -> None:
     """On random nets after random edits: points, knots, curves and meetings."""

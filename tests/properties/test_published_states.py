@@ -31,7 +31,7 @@ from assoc_hull.graph.table import (
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.tables import HullState, copy_state
 from tests.conftest import Shipped
-from tests.long_forms import LONG
+from tests.long_forms import LONG, draws
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 
 tasks_of_all_kinds = tasks(SHAPES + STRUCTURE)
@@ -50,7 +50,7 @@ def content(state: HullState) -> tuple[object, ...]:
     return columns, dict(state.revision_row), dict(state.revision_curve)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=draws(20), deadline=None)
 @given(number=st.integers(0, POOL - 1), edits=tasks_of_all_kinds, back=st.integers(0, 3))
 def test_a_state_that_was_read_stays_whatever_is_done_later(
     number: int, edits: list[Task], back: int
@@ -68,7 +68,7 @@ def test_a_state_that_was_read_stays_whatever_is_done_later(
     assert content(hull.state) == content(hull.document.state)
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=draws(12), deadline=None)
 @given(number=st.integers(0, POOL - 1), edits=tasks_of_all_kinds)
 def test_an_edit_of_a_snapshot_and_one_of_its_hull_do_not_meet(
     number: int, edits: list[Task]

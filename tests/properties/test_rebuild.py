@@ -31,6 +31,7 @@ from assoc_hull.model.definition.restore import from_definition, verify
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.node import Node
 from assoc_hull.model.tables import HullState
+from tests.long_forms import draws
 from tests.strategies import (
     Move,
     Net,
@@ -87,7 +88,7 @@ def edited_document(seed: int) -> Document:
     return document
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(documents(), pinned_edits())
 def test_the_definition_alone_gives_the_edited_hull(
     document: Document, edits: list[PinnedEdit]
@@ -101,7 +102,7 @@ def test_the_definition_alone_gives_the_edited_hull(
     assert fingerprint(from_definition(whole)) == fingerprint(document.state)
 
 
-@settings(max_examples=15)
+@settings(max_examples=draws(15))
 @given(documents(), pinned_edits(largest=2.0, moves=2))
 def test_rough_edits_leave_nothing_that_the_definition_does_not_give(
     document: Document, edits: list[PinnedEdit]
@@ -130,7 +131,7 @@ def test_the_hash_seed_plays_no_part(seed: str) -> None:
     assert run_script(EDITED, seed=seed) == [fingerprint(document.state)]
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(nets(), st.randoms(use_true_random=False), pinned_edits(most=3))
 def test_the_order_of_lines_and_associations_plays_no_part(
     net: Net, rng: random.Random, edits: list[PinnedEdit]
@@ -147,7 +148,7 @@ def test_the_order_of_lines_and_associations_plays_no_part(
         assert fingerprint(one.state) == fingerprint(other.state)
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(documents(), pinned_edits())
 def test_undo_and_redo_give_the_old_fingerprints(
     document: Document, edits: list[PinnedEdit]
@@ -167,7 +168,7 @@ def test_undo_and_redo_give_the_old_fingerprints(
         assert verify(document.state) == []
 
 
-@settings(max_examples=15)
+@settings(max_examples=draws(15))
 @given(documents(), pinned_edits(largest=1.0, most=4))
 def test_a_hull_that_was_saved_and_opened_goes_on_as_before(
     document: Document, edits: list[PinnedEdit]

@@ -14,6 +14,7 @@ from assoc_hull.edit.script import PolicyName
 from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import AssocHullError
 from assoc_hull.model.objects import Line
+from tests.long_forms import draws
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Act, Task, fresh, perform, tasks
 from tests.properties.test_changes import picture
 from tests.properties.test_i08_atomicity import failing_at
@@ -115,7 +116,7 @@ def go_on(hull: ah.Hull, session: list[Turn]) -> None:
         hull.close()
 
 
-@settings(max_examples=30)
+@settings(max_examples=draws(30))
 @given(st.integers(0, POOL - 1), turns())
 def test_a_session_goes_on_after_reopening_as_if_it_had_stayed_open(
     which: int, session: list[Turn]

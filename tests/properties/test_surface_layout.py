@@ -30,6 +30,7 @@ from assoc_hull.geometry.floating.immersion import FloatingPlanes, ImmersedInteg
 from assoc_hull.graph.derived import Derived
 from assoc_hull.model.tables import HullState
 from tests.conftest import Shipped
+from tests.long_forms import draws
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 from tests.plain_layout import plain_layout, plain_parallel_slabs
 
@@ -100,7 +101,7 @@ def assert_as_if_made_first(hull: ah.Hull) -> None:
     assert bits(known.by_waterplanes(planes)) == bits(anew.by_waterplanes(planes))
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=draws(25), deadline=None)
 @given(number=st.integers(0, POOL - 1), edits=tasks(SHAPES + STRUCTURE), back=st.integers(0, 2))
 def test_the_layout_is_that_of_the_long_way_after_any_edit(
     number: int, edits: list[Task], back: int

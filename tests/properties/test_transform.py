@@ -14,6 +14,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
 from assoc_hull.model.kinds import Role, Sort
 from tests.independent import lost_meetings, trouble
+from tests.long_forms import draws
 from tests.net_strategies import SHAPES, STRUCTURE, Task, carry_out, hulls, tasks
 
 
@@ -48,7 +49,7 @@ def maps() -> SearchStrategy[Smooth]:
 DRIVERS = (("sections",), ("sections", "profile"), ("waterlines",), ("sections", "waterlines"))
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(hulls(), tasks(SHAPES + STRUCTURE, most=2), maps(), st.sampled_from(DRIVERS), st.booleans())
 def test_a_transformed_net_is_sound(
     hull: ah.Hull, edits: list[Task], mapping: Smooth, drivers: tuple[str, ...], follow: bool

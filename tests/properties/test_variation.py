@@ -16,6 +16,7 @@ from assoc_hull.variation.fields.bounded_functions import BlendChain
 from assoc_hull.variation.fields.layers import FieldLayer
 from assoc_hull.variation.request import Stations
 from tests.independent import lost_meetings, trouble
+from tests.long_forms import draws
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, hulls, tasks
 
 NAMED = ("length", "breadth", "draught", "depth", "stem_rake_deg")
@@ -81,7 +82,7 @@ def sound(hull: ah.Hull) -> None:
     assert hull.verify() == ()
 
 
-@settings(max_examples=8)
+@settings(max_examples=draws(8))
 @given(hulls(), tasks(SHAPES + STRUCTURE, most=1), wishes(), tasks(SHAPES, most=1), wishes())
 def test_a_varied_net_is_sound_and_stays_associative(
     hull: ah.Hull, edits: list[Task], wish: Wish, later: list[Task], another: Wish

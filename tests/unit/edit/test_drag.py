@@ -28,6 +28,7 @@ from assoc_hull.errors import (
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import NumberColumn, Table, numbers
 from assoc_hull.model.program.run_program import ProgramRun
+from tests.long_forms import draws
 from tests.twins import packed, twin
 
 T = TypeVar("T")
@@ -62,7 +63,7 @@ AMOUNTS = st.lists(
 )
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=draws(12), deadline=None)
 @given(how=st.sampled_from(["pull", "move"]), amounts=AMOUNTS)
 def test_nothing_is_published_and_the_last_step_is_what_is_committed(
     how: str, amounts: list[float]

@@ -27,6 +27,7 @@ from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.make_objects import Maker, PointSpec
 from assoc_hull.model.tables import copy_state
 from tests.cases.test_box_with_bilges import round_box
+from tests.long_forms import draws
 from tests.taken_back import taken_back
 
 Change = Callable[[Edit], object]
@@ -60,7 +61,7 @@ def all_on(hull: ah.Hull) -> bool:
     )
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=draws(8), deadline=None)
 @given(radius=st.floats(0.5, 4.0))
 def test_a_bilge_circle_is_found_with_its_centre_and_radius(radius: float) -> None:
     """Between its two tangent points; bottom and side beside it are straight runs."""

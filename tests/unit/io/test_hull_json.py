@@ -19,6 +19,7 @@ from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json, write_hull_
 from assoc_hull.model.definition.fingerprint import fingerprint
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.tables import HullState, Particulars
+from tests.long_forms import draws
 from tests.strategies import (
     Move,
     PinnedEdit,
@@ -42,7 +43,7 @@ def text(state: HullState) -> str:
     return dumps_hull_json(state)
 
 
-@settings(max_examples=15)
+@settings(max_examples=draws(15))
 @given(documents(), pinned_edits(most=3))
 def test_same_hull_same_bytes(document: Document, edits: list[PinnedEdit]) -> None:
     """Written, read and written again, a hull gives the same bytes and fingerprint."""

@@ -26,6 +26,7 @@ from assoc_hull.io.hull_json import (
 from assoc_hull.model.definition.records import check_definition, check_published
 from tests.fuzz.kinds.hulls import edited_text, plain_text
 from tests.fuzz.values import change_value
+from tests.long_forms import draws
 
 VALIDATOR = Draft202012Validator(hull_json_schema())
 
@@ -79,7 +80,7 @@ def counts_as_floats(document: Any) -> bool:
     return any(isinstance(count, float) for count in counts)
 
 
-@settings(max_examples=300)
+@settings(max_examples=draws(300))
 @given(st.randoms(use_true_random=False), st.booleans(), st.integers(1, 2))
 def test_reader_and_schema_agree_on_any_change(rng: Random, edited: bool, count: int) -> None:
     """A changed document is valid if and only if the reader takes its form.

@@ -31,6 +31,7 @@ from assoc_hull.variation.fields.layers import (
     Layer,
 )
 from assoc_hull.variation.fields.space_map import VariationMap
+from tests.long_forms import draws
 from tests.variation_strategies import BEAM, DEPTH, LENGTH, layers, places
 
 BOX = np.array([[-8.0, -0.5 * BEAM, -2.0], [LENGTH + 8.0, 0.5 * BEAM, DEPTH]])
@@ -157,7 +158,7 @@ def test_layer_of_an_unknown_kind_is_refused() -> None:
         certify(Mystery("other"), BOX)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=draws(40), deadline=None)
 @given(layer=layers(2.0), xyz=places(200))
 def test_image_of_a_box_holds_the_images_of_its_places(layer: Layer, xyz: FloatArray) -> None:
     """Whatever the layer, no place of the box is mapped out of the image box."""

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.certificate.fold_check import certify
 from assoc_hull.variation.fields.layers import FieldLayer
+from tests.long_forms import draws
 from tests.variation_strategies import BEAM, DEPTH, LENGTH, field_layers
 
 BOX = np.array([[0.0, -0.5 * BEAM, 0.0], [LENGTH, 0.5 * BEAM, DEPTH]])
@@ -24,7 +25,7 @@ def pairs(axis: int, seed: int) -> tuple[FloatArray, FloatArray]:
     return first, one + other - first
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(layer=field_layers(1.5))
 def test_what_is_certified_keeps_places_in_order(layer: FieldLayer) -> None:
     """100,000 pairs: in x at one y and z, and in z at one x and y."""
@@ -37,7 +38,7 @@ def test_what_is_certified_keeps_places_in_order(layer: FieldLayer) -> None:
         assert (moved[0] < moved[1])[apart].all()
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(layer=field_layers(6.0))
 def test_what_folds_has_a_minor_below_nil_at_its_witness(layer: FieldLayer) -> None:
     """The Jacobian there says the same as the certificate."""

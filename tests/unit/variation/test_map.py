@@ -14,6 +14,7 @@ from assoc_hull.variation.fields.field import AffinePiece, Axis, StackedField, l
 from assoc_hull.variation.fields.image_intersections import creases
 from assoc_hull.variation.fields.layers import FieldLayer, Layer
 from assoc_hull.variation.fields.space_map import VariationMap
+from tests.long_forms import draws
 from tests.variation_strategies import (
     blends,
     corner_layers,
@@ -55,7 +56,7 @@ def smooth_places(vmap: VariationMap, xyz: FloatArray) -> FloatArray:
     return xyz[clear]
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(field=st.one_of(fields(), hats(), rakes()), layer=field_layers(0.0), xyz=places())
 def test_a_map_without_departure_is_the_identity(
     field: StackedField, layer: FieldLayer, xyz: FloatArray
@@ -107,7 +108,7 @@ def test_the_draught_scales_what_is_immersed(ratio: float, xyz: FloatArray) -> N
 
 
 @pytest.mark.parametrize("kind", [field_layers, corner_layers, deadrise_layers])
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(data=st.data(), xyz=places())
 def test_the_jacobian_of_a_layer_is_its_derivative(
     kind: type, data: st.DataObject, xyz: FloatArray
@@ -118,7 +119,7 @@ def test_the_jacobian_of_a_layer_is_its_derivative(
     assert_allclose(layer.jacobian(xyz), differences(layer, xyz), rtol=0, atol=1e-7)
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(vmap=maps(), xyz=places())
 def test_the_jacobian_of_a_map_is_its_derivative(vmap: VariationMap, xyz: FloatArray) -> None:
     """By the chain rule through all layers."""
@@ -126,7 +127,7 @@ def test_the_jacobian_of_a_map_is_its_derivative(vmap: VariationMap, xyz: FloatA
     assert_allclose(vmap.jacobian(xyz), differences(vmap, xyz), rtol=0, atol=2e-7)
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(layer=layers(), xyz=places())
 def test_places_outside_the_regions_keep_their_bits(layer: Layer, xyz: FloatArray) -> None:
     """The displacement is exactly nil and the Jacobian exactly the unit matrix."""
@@ -140,7 +141,7 @@ def test_places_outside_the_regions_keep_their_bits(layer: Layer, xyz: FloatArra
     assert (vmap.inverse(still) == still).all()
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(vmap=maps(), xyz=places())
 def test_port_and_starboard_stay_mirrored(vmap: VariationMap, xyz: FloatArray) -> None:
     """To the last bit, and what lies on the centre plane stays on it."""

@@ -30,6 +30,7 @@ from assoc_hull.variation.shifts.shift_terms import (
     Terminals,
 )
 from assoc_hull.variation.shifts.shifted_areas import ShiftSums, VolumeElements
+from tests.long_forms import draws
 
 TABLE = todd_table(0.70)[0]
 L, T = TABLE.length, TABLE.draught or 0.0
@@ -111,7 +112,7 @@ def test_the_carried_curve_has_what_was_asked_for(shape: ShiftShape) -> None:
     assert lcb == pytest.approx(before + 0.5, abs=4e-12)
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(
     heights=st.lists(st.floats(0.1, 1.0), min_size=4, max_size=4),
     shape=st.sampled_from(SHIFT_SHAPES),

@@ -11,6 +11,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.aiming import reach_targets
 from assoc_hull.variation.carrying.driving_lines import find_kept_planes
 from assoc_hull.variation.request import Planes, Stations
+from tests.long_forms import long_form
 
 
 @pytest.fixture(scope="module")
@@ -131,7 +132,7 @@ def test_what_lofting_misses_is_corrected_while_targets_are_held(
     assert again.hull.hydrostatics().lcb == pytest.approx(after.lcb, abs=2e-3)
 
 
-@pytest.mark.parametrize("fair", [False, True])
+@pytest.mark.parametrize("fair", [False, pytest.param(True, marks=long_form)])
 def test_a_nudge_to_what_is_asked_for_is_as_fair_as_maps_with_corrected_aims(
     monkeypatch: pytest.MonkeyPatch, fair: bool
 ) -> None:

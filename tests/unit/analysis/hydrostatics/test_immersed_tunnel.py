@@ -14,6 +14,7 @@ from assoc_hull.analysis.hydrostatics.immersed_tunnel import ImmersedTunnel
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from tests.cases.test_box_with_bilges import HALF, LENGTH, round_box
+from tests.long_forms import draws
 
 X, Z, RADIUS = 60.0, 4.5, 1.5
 
@@ -44,7 +45,7 @@ def box() -> ah.Hull:
     return hull
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=draws(25), deadline=None)
 @given(level=st.floats(2.5, 6.5))
 def test_a_level_waterplane_leaves_a_segment_of_a_cylinder(box: ah.Hull, level: float) -> None:
     """Volume, its centre, waterplane with its moments, mouths less wall: closed forms."""
@@ -63,7 +64,7 @@ def test_a_level_waterplane_leaves_a_segment_of_a_cylinder(box: ah.Hull, level: 
         assert float(found[name][0]) == pytest.approx(value, rel=1e-10, abs=1e-8), name
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=draws(40), deadline=None)
 @given(
     level=st.floats(2.0, 7.0), heel=st.floats(-60.0, 60.0), trim=st.floats(-0.05, 0.05),
 )  # fmt: skip
@@ -91,7 +92,7 @@ def test_hydrostatics_are_those_of_the_box_less_the_immersed_part(
     assert without.moment_y[0] - with_.moment_y[0] == pytest.approx(exact[1], rel=1e-8, abs=1e-6)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=draws(25), deadline=None)
 @given(
     level=st.floats(1.8, 4.2), heel=st.floats(-0.8, 0.8), trim=st.floats(-0.03, 0.03),
 )  # fmt: skip

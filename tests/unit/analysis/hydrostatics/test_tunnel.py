@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from tests.cases.test_box_with_bilges import BILGE, DEPTH, DRAUGHT, HALF, LENGTH, round_box
+from tests.long_forms import draws
 from tests.taken_back import taken_back
 
 
@@ -19,7 +20,7 @@ def box() -> ah.Hull:
     return round_box()
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=draws(10), deadline=None)
 @given(x=st.floats(10.0, 90.0), z=st.floats(4.0, 5.0), radius=st.floats(0.1, 1.9))
 def test_a_cylinder_through_a_box_is_that_cylinder(
     box: ah.Hull, x: float, z: float, radius: float

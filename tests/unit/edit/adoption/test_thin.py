@@ -13,6 +13,7 @@ from assoc_hull.geometry.curves import PointKind
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.tables import HullState
 from assoc_hull.tolerance import Tolerances
+from tests.long_forms import draws
 from tests.strategies import Net, nets, wigley_sources
 
 
@@ -56,7 +57,7 @@ def test_no_point_is_adopted_beside_an_end_that_its_boundary_moved() -> None:
     assert "94.7 mm beside a point of the curve, closer than 0.2 m" in notes[0]
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(nets())
 def test_adopted_points_keep_their_distance(net: Net) -> None:
     """From all points of their curve, on every net.

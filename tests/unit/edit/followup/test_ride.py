@@ -8,6 +8,7 @@ from hypothesis import given, settings
 
 import assoc_hull as ah
 from assoc_hull.model.kinds import Sort
+from tests.long_forms import draws
 from tests.net_strategies import SHAPES, STRUCTURE, Task, carry_out, fresh, hulls, knuckled, tasks
 
 
@@ -44,7 +45,7 @@ def _first_driven(hull: ah.Hull, rows: list[int]) -> int:
     return other if other >= 0 and table.driver[other] >= 0 else -1
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(hulls(), tasks((*SHAPES, *STRUCTURE), largest=0.1))
 def test_every_adopted_point_is_linked_to_its_driven_neighbours(
     hull: ah.Hull, edits: list[Task]

@@ -22,6 +22,7 @@ from assoc_hull.errors import (
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.address import address
 from tests.formed import formed
+from tests.long_forms import draws
 from tests.net_strategies import POOL, fresh, refused
 
 Shipped = Callable[[str], ah.Hull]
@@ -237,7 +238,7 @@ def test_what_is_refused_half_way_leaves_no_trace(fresh_series60_70: ah.Hull) ->
     assert "chine" not in hull.lines
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=draws(12), deadline=None)
 @given(st.integers(0, POOL - 1), st.randoms(use_true_random=False))
 def test_on_any_hull_a_knuckle_line_is_drawn_whole_or_refused(
     number: int, rng: random.Random

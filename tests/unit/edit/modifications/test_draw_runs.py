@@ -18,6 +18,7 @@ from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError, BlockedRunError, GeometryError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.objects import Curve, Point
+from tests.long_forms import draws
 from tests.net_strategies import POOL, fresh, refused
 
 Shipped = Callable[[str], ah.Hull]
@@ -337,7 +338,7 @@ def runs(hull: ah.Hull, rng: random.Random) -> dict[str, Any]:
     return {"line": Curve.of(state, curve), "a": ends[0], "b": ends[1]}
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=draws(12), deadline=None)
 @given(st.integers(0, POOL - 1), st.randoms(use_true_random=False))
 def test_on_any_hull_a_run_is_drawn_exactly_or_refused_whole(
     number: int, rng: random.Random

@@ -15,6 +15,7 @@ from assoc_hull.edit.step import EditReport
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray
 from tests.independent import trouble
+from tests.long_forms import draws
 from tests.net_strategies import POOL, fresh, live_points, refused
 
 RADIUS = (25.0, 6.0)
@@ -67,7 +68,7 @@ def test_a_second_pull_adopts_no_second_point() -> None:
     assert len(live_points(hull, "adopted")) == count - 1
 
 
-@settings(max_examples=40)
+@settings(max_examples=draws(40))
 @given(
     st.integers(0, POOL - 1),
     st.integers(0, 2**16),

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.errors import BadInputError, FreedomError, PointRoleError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
+from tests.long_forms import draws
 from tests.net_strategies import POOL, fresh, live_points, refused
 
 SHIPS = {
@@ -128,7 +129,7 @@ def moves(hull: ah.Hull, chosen: list[int], amounts: list[float]) -> dict[str, F
     return found
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=draws(12), deadline=None)
 @given(
     st.integers(0, POOL - 1),
     st.lists(st.integers(0, 999), min_size=4, max_size=4),

@@ -22,6 +22,7 @@ from assoc_hull.errors import (
 )
 from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.model.objects import Curve
+from tests.long_forms import draws
 from tests.net_strategies import POOL, fresh, live_points, refused
 
 Shipped = Callable[[str], ah.Hull]
@@ -147,7 +148,7 @@ def test_where_there_is_no_hollow_or_no_room_it_is_said() -> None:
     assert "placed points" in text
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=draws(12), deadline=None)
 @given(
     st.integers(0, POOL - 1), st.integers(0, 999), st.sampled_from([-0.15, -0.08, 0.08, 0.15]),
     st.floats(0.1, 0.5),

@@ -18,6 +18,7 @@ from assoc_hull.geometry.floating.sections import (
 )
 from assoc_hull.geometry.numeric.quadrature import gauss
 from tests.exact_hulls import FormStrips, box, ellipsoid, wigley
+from tests.long_forms import draws
 
 LENGTH, BREADTH, DRAUGHT = 100.0, 10.0, 6.25
 
@@ -129,7 +130,7 @@ def test_no_body_lies_beyond_its_ends(exact_wigley: StripSpans) -> None:
     assert cross_section(exact_wigley, 101.0).count == 0
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(x=st.floats(12.0, 88.0), height=st.floats(3.0, 7.0), trim=st.floats(-0.01, 0.01))
 def test_parts_of_raked_strips_add_up_to_the_body(
     raked: StripSpans, x: float, height: float, trim: float

@@ -18,6 +18,7 @@ from assoc_hull.geometry.floating.immersion import (
     integrate_immersed,
 )
 from tests.exact_hulls import FormStrips, box, ellipsoid
+from tests.long_forms import draws
 
 NAMES = [field.name for field in attrs.fields(ImmersedIntegrals)]
 EXTENTS = [name for name in NAMES if name.startswith(("x_", "y_"))]
@@ -82,7 +83,7 @@ def bodies(draw: st.DrawFn) -> PreparedStrips:
 
 inclined = st.tuples(st.floats(-0.03, 0.03), st.floats(-0.5, 0.5))
 levels = st.floats(1.0, 9.0)
-few = settings(max_examples=25, deadline=None)
+few = settings(max_examples=draws(25), deadline=None)
 
 
 @few

@@ -36,6 +36,7 @@ from assoc_hull.geometry.integrals.series import (
     sine_of_function,
 )
 from assoc_hull.geometry.splines.loft import loft
+from tests.long_forms import draws
 from tests.unit.geometry.integrals.test_transforms import PRINTED, SHIP_B, SHIP_C
 
 HALF = np.array([[0.0, 0.0, 0], [3.0, 0.2, 0], [4.0, 2.5, 0], [4.5, 6.0, 0]])
@@ -163,7 +164,7 @@ def test_the_area_inside_is_pi_times_the_sum_of_k_squares() -> None:
     assert area == pytest.approx(float(plane_integrals(spline).area[0]), rel=1e-8)
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(
     st.complex_numbers(min_magnitude=0.1, max_magnitude=10.0),
     st.complex_numbers(max_magnitude=50.0),

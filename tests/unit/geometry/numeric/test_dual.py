@@ -14,6 +14,7 @@ from hypothesis.extra.numpy import arrays, broadcastable_shapes, mutually_broadc
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.numeric.dual import Dual, real, sum_by
+from tests.long_forms import draws
 
 K = 3
 STEP = 1e-100
@@ -106,7 +107,7 @@ ONE_NUMBER: dict[str, tuple[Callable[[Any], Any], bool]] = {
 
 
 @pytest.mark.parametrize("name", ONE_NUMBER)
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=draws(15), deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), shape=st.sampled_from([(), (4,), (2, 3), (0, 2)]))
 def test_functions_of_one_number(name: str, seed: int, shape: tuple[int, ...]) -> None:
     """Values are those of numpy to the bit; tangents those of the complex step."""
@@ -130,7 +131,7 @@ TWO_NUMBERS: dict[str, tuple[Callable[[Any, Any], Any], bool]] = {
 
 
 @pytest.mark.parametrize("name", TWO_NUMBERS)
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=draws(25), deadline=None)
 @given(
     seed=st.integers(0, 2**31),
     shapes=mutually_broadcastable_shapes(num_shapes=2, max_dims=3, max_side=3),
@@ -155,7 +156,7 @@ def test_where_two_are_the_same_the_first_is_the_larger_and_the_smaller() -> Non
         assert found.dot.tolist() == [[2.0]]
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=draws(40), deadline=None)
 @given(seed=st.integers(0, 2**31), data=st.data())
 def test_broadcasting_to_a_shape(seed: int, data: st.DataObject) -> None:
     """Tangents stay in front."""
@@ -251,7 +252,7 @@ def test_functions_of_arrays(name: str, seed: int) -> None:
     check(LINEAR[name], random_dual(seed, (2, 3, 4)))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=draws(20), deadline=None)
 @given(seed=st.integers(0, 2**31))
 def test_products_of_two_matrices_that_vary(seed: int) -> None:
     """By the rule of products, with rows and stacks too."""
@@ -262,7 +263,7 @@ def test_products_of_two_matrices_that_vary(seed: int) -> None:
     check(lambda c: c @ c, c)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=draws(50), deadline=None)
 @given(
     first=arrays(float, (3,), elements=numbers),
     dots=arrays(float, (K, 3), elements=st.floats(-1.0, 1.0)),
@@ -413,7 +414,7 @@ def test_real_gives_plain_values() -> None:
     assert real(2).dtype == np.float64
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=draws(40), deadline=None)
 @given(seed=st.integers(0, 2**31), shape=st.sampled_from([(), (2,), (2, 3)]), n=st.integers(0, 9))
 def test_sums_by_owner(seed: int, shape: tuple[int, ...], n: int) -> None:
     """Row by row, for floats, complex numbers and duals; sums of nothing are nil."""

@@ -19,6 +19,7 @@ from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.loft_tangents import DualSplines, loft_tangents
 from assoc_hull.geometry.splines.segments import bezier_points, power_coefficients
 from tests.complex_loft import as_batch
+from tests.long_forms import draws
 
 STEP = 1e-100
 FIELDS = ("knot", "xyz", "leave", "arrive")
@@ -105,14 +106,14 @@ def check(case: Case, tolerance: float = 1e-11) -> None:
 sizes = st.lists(st.integers(2, 9), min_size=1, max_size=4)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=draws(150), deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), sizes=sizes, few=st.booleans())
 def test_the_tangents_are_those_of_the_complex_step(seed: int, sizes: list[int], few: bool) -> None:
     """Of any curves, kinds and ends, whether much or little moves."""
     check(random_case(seed, sizes, few=few))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=draws(40), deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), sizes=sizes)
 def test_the_tangents_are_those_of_central_differences(seed: int, sizes: list[int]) -> None:
     """Of the loft itself."""
@@ -182,7 +183,7 @@ def test_what_no_tangent_moves_costs_nothing_and_stays() -> None:
         assert dot[1, 4:9].any()
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=draws(20), deadline=None)
 @given(seed=st.integers(0, 2**31), sizes=sizes)
 def test_the_ways_for_few_and_many_moves_agree(seed: int, sizes: list[int]) -> None:
     """One tangent that moves all, alone, and among many that move nothing."""
@@ -309,7 +310,7 @@ def test_a_section_that_the_level_meets_often() -> None:
         assert area.dot[k, 0] == pytest.approx((ahead - back) / 2e-5, rel=1e-7)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=draws(20), deadline=None)
 @given(seed=st.integers(0, 2**31), sizes=sizes)
 def test_functions_of_splines_take_tangents_and_complex_numbers(
     seed: int, sizes: list[int]

@@ -9,6 +9,7 @@ from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.paths import Paths, shape_paths
 from assoc_hull.geometry.splines.segments import evaluate
+from tests.long_forms import draws
 
 STEP = 1e-6
 
@@ -23,7 +24,7 @@ def _wave() -> SplineBatch:
 
 
 @given(st.floats(0.0, 1.0))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=draws(60), deadline=None)
 def test_a_path_over_a_whole_curve_is_the_curve(w: float) -> None:
     """Its fraction is the chord parameter divided by the length."""
     batch = _wave()
@@ -38,7 +39,7 @@ def test_a_path_over_a_whole_curve_is_the_curve(w: float) -> None:
 
 
 @given(st.floats(0.0, 1.0))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=draws(60), deadline=None)
 def test_a_path_walked_back_is_the_same_path(w: float) -> None:
     """Places at 1 - w, derivatives with the other sign."""
     batch = _wave()
@@ -52,7 +53,7 @@ def test_a_path_walked_back_is_the_same_path(w: float) -> None:
 
 
 @given(st.floats(0.0, 1.0))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=draws(60), deadline=None)
 def test_a_part_of_the_way_along_x_is_found(part: float) -> None:
     """The place lies by that part between the ends' x; its derivative has the ends' distance."""
     batch = _wave()

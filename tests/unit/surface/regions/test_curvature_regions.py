@@ -20,6 +20,7 @@ from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.zero_set_arcs import arcs_of
 from assoc_hull.surface.regions import curvature_regions as solving
 from tests.curved_patches import patch, random_nets
+from tests.long_forms import draws
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 
@@ -227,7 +228,7 @@ def test_what_is_found_is_frozen() -> None:
             array[0] = 0
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=draws(10), deadline=None)
 @given(
     m=st.integers(1, 3),
     n=st.integers(1, 3),

@@ -17,6 +17,7 @@ from assoc_hull.variation.fields.field import AffinePiece, Axis, StackedField, l
 from assoc_hull.variation.fields.image_intersections import intersect_images, plane_source
 from assoc_hull.variation.fields.layers import FieldLayer
 from assoc_hull.variation.fields.space_map import VariationMap
+from tests.long_forms import draws
 from tests.variation_strategies import field_layers, maps, places
 
 AXES: tuple[Axis, ...] = ("x", "y", "z")
@@ -53,7 +54,7 @@ def passed(
 
 
 @pytest.mark.parametrize("axis", AXES)
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(vmap=maps(), knots=places(5), part=st.floats(0.05, 0.95))
 def test_every_crossing_is_found(
     axis: Axis, vmap: VariationMap, knots: FloatArray, part: float
@@ -114,7 +115,7 @@ def test_curves_of_a_batch_keep_their_own_crossings() -> None:
     assert_allclose(found.xyz[:, 2], 5.0, rtol=0, atol=1e-13)
 
 
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(layer=field_layers(), knots=places(5), value=st.floats(2.0, 12.0))
 def test_the_source_of_a_plane_cuts_the_parent_alike(
     layer: FieldLayer, knots: FloatArray, value: float
@@ -131,7 +132,7 @@ def test_the_source_of_a_plane_cuts_the_parent_alike(
 
 
 @pytest.mark.parametrize("axis", AXES)
-@settings(max_examples=20)
+@settings(max_examples=draws(20))
 @given(vmap=maps(), xyz=places(), value=st.floats(1.0, 12.0))
 def test_the_source_of_a_plane_is_mapped_into_it(
     axis: Axis, vmap: VariationMap, xyz: FloatArray, value: float

@@ -20,6 +20,7 @@ from assoc_hull.variation.fields.field import (
 )
 from assoc_hull.variation.fields.layers import FieldLayer, Layer
 from assoc_hull.variation.fields.space_map import VariationMap
+from tests.long_forms import draws
 from tests.variation_strategies import layers, maps, places
 
 
@@ -58,14 +59,14 @@ def test_the_inverse_undoes_the_map(vmap: VariationMap, xyz: FloatArray) -> None
     assert_allclose(vmap.inverse(vmap(xyz)), xyz, rtol=0, atol=1e-12)
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(vmap=maps(), xyz=places())
 def test_the_map_undoes_the_inverse(vmap: VariationMap, xyz: FloatArray) -> None:
     """To 1e-12 m; every place of the varied hull comes from somewhere."""
     assert_allclose(vmap(vmap.inverse(xyz)), xyz, rtol=0, atol=1e-12)
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(layer=layers(), xyz=places(12))
 def test_a_layer_of_unknown_kind_is_undone(layer: Layer, xyz: FloatArray) -> None:
     """All three coordinates at once, from displacement and Jacobian alone."""
@@ -76,7 +77,7 @@ def test_a_layer_of_unknown_kind_is_undone(layer: Layer, xyz: FloatArray) -> Non
 def test_nested_brackets_find_the_same() -> None:
     """With Newton's rule switched off, for layers of known and unknown kind."""
 
-    @settings(max_examples=25)
+    @settings(max_examples=draws(25))
     @given(layer=layers(), xyz=places(6))
     def check(layer: Layer, xyz: FloatArray) -> None:
         for vmap in (VariationMap((layer,)), VariationMap((Wrapped(layer),))):
@@ -87,7 +88,7 @@ def test_nested_brackets_find_the_same() -> None:
         check()
 
 
-@settings(max_examples=25)
+@settings(max_examples=draws(25))
 @given(vmap=maps(), xyz=places(20))
 def test_a_place_is_undone_by_itself(vmap: VariationMap, xyz: FloatArray) -> None:
     """The same bits, whatever other places are asked with it."""
