@@ -64,7 +64,7 @@ def edited(hull: ah.Hull, rng: random.Random, count: int) -> list[str]:
 def test_undone_saved_and_made_again_elsewhere(
     name: str, tmp_path: Path, shipped: Callable[[str], ah.Hull]
 ) -> None:
-    """Made in memory, undone, saved; made again and undone in another process. Long: all examples."""
+    """Made in memory, undone, saved; made again and undone in another process; long: all hulls."""
     hull, path = shipped(EXAMPLES[name]), tmp_path / "ship.hull"
     prints = edited(hull, random.Random(name), 8)
     hull.undo(8)
