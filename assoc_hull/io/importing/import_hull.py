@@ -22,12 +22,12 @@ from assoc_hull.edit.adoption.latent_crossings import make_latent_crossings
 from assoc_hull.errors import AssocHullError, BadInputError, NotSoundError
 from assoc_hull.geometry.numeric.blas_threads import one_thread
 from assoc_hull.io.digitised.body_plan import BodyPlanRules, is_body_plan, read_body_plan
-from assoc_hull.io.importing.judge import finding_of, judge, verdict_notes
+from assoc_hull.io.importing.judge import judge, verdict_notes
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.own_files import read_own_file
 from assoc_hull.io.importing.soundness import deepest_note, greatest_note, open_net_note
 from assoc_hull.io.importing.stated import stated_places
-from assoc_hull.io.importing.verdict import ImportFinding, Verdict, grouped, require_sound
+from assoc_hull.io.importing.verdict import Verdict, grouped, require_sound
 from assoc_hull.io.lines.ship_frame import ShipFrame
 from assoc_hull.io.offsets.complete_table import net_from_table
 from assoc_hull.io.offsets.knuckles import knuckle_notes
@@ -35,7 +35,7 @@ from assoc_hull.io.offsets.place_table import place_table, table_particulars
 from assoc_hull.io.offsets.read import read_offsets
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.placing.options import FileAxes, FrameOptions
-from assoc_hull.io.reports import OffsetReport, Tell, no_progress
+from assoc_hull.io.reports import Note, OffsetReport, Tell, no_progress
 from assoc_hull.io.slicing.net import SliceReport
 from assoc_hull.io.slicing.read import holds_lines, read_slices
 from assoc_hull.io.units import METRES
@@ -180,10 +180,10 @@ def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, Import
             raise
         # No hull can be made of numbers that are not right: all that is wrong is told.
         found = (
-            *grouped([*map(finding_of, notes.faults)]),
-            ImportFinding("not adopted", "the table", str(error)),
+            *grouped(notes.faults),
+            Note("not adopted", "the table", str(error)),
         )
-        besides = tuple(map(str, grouped([*map(finding_of, notes.suspicions)])))
+        besides = tuple(map(str, grouped(notes.suspicions)))
         raise NotSoundError(path.name, tuple(map(str, found)), suspicions=besides) from error
     return state, ImportReport(notes, adoption, Verdict(), table=table, frame=frame)
 

@@ -26,7 +26,6 @@ from assoc_hull.io.importing.soundness import deepest_lines, examine_net, look
 from assoc_hull.io.importing.stated import stated_in
 from assoc_hull.io.importing.verdict import (
     Findings,
-    ImportFinding,
     Verdict,
     told_verdict,
 )
@@ -40,7 +39,7 @@ from assoc_hull.io.slicing.net import LOFTED, SliceReport
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.tables import HullState
 
-__all__ = ["examine_ends", "finding_of", "judge", "judge_definition", "verdict_notes"]
+__all__ = ["examine_ends", "judge", "judge_definition", "verdict_notes"]
 
 _VOLUME, _SURFACE = 5e-4, 5e-3
 """An end is told where more of V or of S may hang on it: so closely imports are to be right."""
@@ -289,7 +288,7 @@ def judge(
     *, table: OffsetTable | None,
 ) -> Verdict:  # fmt: skip
     """Look at all of a hull that was read from a file; `table`: its offsets if it was a table."""
-    found = Findings([*map(finding_of, notes.faults)])
+    found = Findings([*notes.faults])
     for note in notes.suspicions:
         _take_up(note, state, found)
     for doubt in () if slices is None else slices.suspicions:
@@ -328,7 +327,7 @@ def _take_up(note: Note, state: HullState, found: Findings) -> None:
     wild = note.kind == "outlier" and note.amount is not None and abs(note.amount) > _WILD * half
     # Of an open profile neither surface nor closed mesh can be made, and volumes leak there.
     broken = wild or note.kind == HOLE
-    (found.faults if broken else found.suspicions).append(finding_of(note))
+    (found.faults if broken else found.suspicions).append(note)
 
 
 def _put_causes_first(found: Findings) -> None:
@@ -338,11 +337,6 @@ def _put_causes_first(found: Findings) -> None:
     causes = [each for each in found.suspicions if each.what.startswith(BLANK_INSIDE)]
     found.suspicions = [each for each in found.suspicions if each not in causes]
     found.faults[:0] = causes
-
-
-def finding_of(note: Note) -> ImportFinding:
-    """Give a note as a finding."""
-    return ImportFinding(note.kind, note.where, note.what, note.amount)
 
 
 def verdict_notes(notes: OffsetReport, verdict: Verdict) -> tuple[str, ...]:

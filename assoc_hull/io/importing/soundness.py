@@ -18,7 +18,8 @@ from assoc_hull.edit.checks.hull_findings import check
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.splines.segments import sample
-from assoc_hull.io.importing.verdict import Findings, ImportFinding
+from assoc_hull.io.importing.verdict import Findings
+from assoc_hull.io.reports import Note
 from assoc_hull.io.slicing.boundary_curves import BoundaryCurve
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.gaps import gap_at, tangents, watched_on
@@ -285,14 +286,14 @@ def _examine_checks(state: HullState, found: Findings, *, sized: bool = False) -
     found.faults.extend(_checked(state, sized=sized))
 
 
-def _checked(state: HullState, *, sized: bool) -> Iterator[ImportFinding]:
+def _checked(state: HullState, *, sized: bool) -> Iterator[Note]:
     """Give the findings of `check`, each with its place."""
     for each in check(state):
         place = "" if each.place is None else f" at {_at(each.place)}"
         what = each.message
         if each.kind in ("fold", "loop"):  # what is imported has had no edit that could be undone
             what = f"{what.partition(': ')[0]}: {_unfold(state, sized=sized)}"
-        yield ImportFinding(each.kind, f"{each.object}{place}", what, each.amount)
+        yield Note(each.kind, f"{each.object}{place}", what, each.amount)
 
 
 _LONGEST_MODEL = 25.0
@@ -365,7 +366,7 @@ def deepest_note(state: HullState, noise: float) -> tuple[str, ...]:
     )
 
 
-def deepest_lines(state: HullState, noise: float, floor: float) -> Iterator[ImportFinding]:
+def deepest_lines(state: HullState, noise: float, floor: float) -> Iterator[Note]:
     """Give the sections that hang below their own points, and other lines below z = `floor` (m).
 
     Nothing of a hull lies below its keel: volume and draught would be those of another ship.
@@ -383,7 +384,7 @@ def deepest_lines(state: HullState, noise: float, floor: float) -> Iterator[Impo
             f"{lowest_given:.6g} m, at {place}: give one more waterline close above the keel, or "
             "the heights of the keel in a column 'keel'"
         )
-        yield ImportFinding("below the keel", name, what, over)
+        yield Note("below the keel", name, what, over)
 
 
 _Passed = list[tuple[float, str, float, str]]

@@ -5,8 +5,9 @@ told and kept; `strict` refuses them too.
 
 Examples
 --------
->>> from assoc_hull.io.importing.verdict import ImportFinding, Verdict
->>> print(Verdict((), (ImportFinding("draught", "the table", "2 % off the waterline found"),)))
+>>> from assoc_hull.io.importing.verdict import Verdict
+>>> from assoc_hull.io.reports import Note
+>>> print(Verdict((), (Note("draught", "the table", "2 % off the waterline found"),)))
 sound with suspicions (1)
 """
 
@@ -19,10 +20,10 @@ import attrs
 
 from assoc_hull.display import ShownAsText, counted
 from assoc_hull.errors import NotSoundError
+from assoc_hull.io.reports import Note
 
 __all__ = [
     "Findings",
-    "ImportFinding",
     "Verdict",
     "grouped",
     "refused_findings",
@@ -32,44 +33,19 @@ __all__ = [
 
 
 @attrs.frozen(repr=False)
-class ImportFinding(ShownAsText):
-    """One thing that is wrong or looks wrong.
-
-    Attributes
-    ----------
-    kind : str
-        A short word to filter by, such as "outlier", "gap" or "coefficient".
-    where : str
-        The line, station, row, column or unit.
-    what : str
-        A sentence with the numbers, and what to do where something can be done.
-    amount : float or None
-        The number that matters; m where it is a length.
-    """
-
-    kind: str
-    where: str
-    what: str
-    amount: float | None = None
-
-    def __str__(self) -> str:
-        return f"{self.kind}: {self.where}: {self.what}"
-
-
-@attrs.frozen(repr=False)
 class Verdict(ShownAsText):
     """What an import is worth.
 
     Attributes
     ----------
-    faults : tuple of ImportFinding
+    faults : tuple of Note
         What makes the hull not sound.
-    suspicions : tuple of ImportFinding
+    suspicions : tuple of Note
         What looks wrong and need not be.
     """
 
-    faults: tuple[ImportFinding, ...] = ()
-    suspicions: tuple[ImportFinding, ...] = ()
+    faults: tuple[Note, ...] = ()
+    suspicions: tuple[Note, ...] = ()
 
     @property
     def word(self) -> str:
@@ -90,16 +66,16 @@ class Verdict(ShownAsText):
 class Findings:
     """Collects what several looks at one hull find; `verdict` gives it frozen."""
 
-    faults: list[ImportFinding] = attrs.field(factory=list)
-    suspicions: list[ImportFinding] = attrs.field(factory=list)
+    faults: list[Note] = attrs.field(factory=list)
+    suspicions: list[Note] = attrs.field(factory=list)
 
     def fault(self, kind: str, where: str, what: str, amount: float | None = None) -> None:
         """Note what makes the hull not sound."""
-        self.faults.append(ImportFinding(kind, where, what, amount))
+        self.faults.append(Note(kind, where, what, amount))
 
     def suspect(self, kind: str, where: str, what: str, amount: float | None = None) -> None:
         """Note what looks wrong and need not be."""
-        self.suspicions.append(ImportFinding(kind, where, what, amount))
+        self.suspicions.append(Note(kind, where, what, amount))
 
     def verdict(self) -> Verdict:
         """Give the verdict; what looks found in the same words counts once, with all its places."""
@@ -116,16 +92,16 @@ _FIGURE = re.compile(r"[-+]?[0-9][-+0-9.,]*(?:e[-+]?[0-9]+)?")
 _NAME = re.compile(r"(?:[A-Za-z]+ )?[-+]?[0-9][-+0-9.]*|[^ ]+")
 
 
-def grouped(findings: Sequence[ImportFinding]) -> tuple[ImportFinding, ...]:
+def grouped(findings: Sequence[Note]) -> tuple[Note, ...]:
     """Put findings together that say one thing of many lines: the worst, and where else it holds.
 
     Examples
     --------
-    >>> found = [ImportFinding("fold", f"ST {x}", f"by {x} mm", float(x)) for x in (1, 3, 2)]
+    >>> found = [Note("fold", f"ST {x}", f"by {x} mm", float(x)) for x in (1, 3, 2)]
     >>> [str(each) for each in grouped(found)]
     ['fold: ST 3; likewise ST 1, ST 2: by 3 mm']
     """
-    alike: dict[tuple[str, str], list[ImportFinding]] = {}
+    alike: dict[tuple[str, str], list[Note]] = {}
     for each in dict.fromkeys(findings):
         said = (each.kind, _FIGURE.sub("#", each.what))
         alike.setdefault(said, []).append(each)
@@ -135,7 +111,7 @@ def grouped(findings: Sequence[ImportFinding]) -> tuple[ImportFinding, ...]:
     return tuple(found)
 
 
-def _as_one(group: list[ImportFinding]) -> ImportFinding:
+def _as_one(group: list[Note]) -> Note:
     """Give the worst of findings that are alike, with the places of the others."""
     worst = max(group, key=lambda each: abs(each.amount or 0.0))
     places = [each.where.partition(" at (")[0] for each in group]
@@ -150,7 +126,7 @@ def _as_one(group: list[ImportFinding]) -> ImportFinding:
     return attrs.evolve(worst, where=f"{worst.where}{others}")
 
 
-def refused_findings(verdict: Verdict, *, accept: bool, strict: bool) -> tuple[ImportFinding, ...]:
+def refused_findings(verdict: Verdict, *, accept: bool, strict: bool) -> tuple[Note, ...]:
     """Give what a hull is refused for; nothing where it is taken."""
     if accept:
         return ()

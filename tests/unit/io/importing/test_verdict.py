@@ -17,7 +17,8 @@ from assoc_hull.io.importing import proportions, soundness
 from assoc_hull.io.importing.import_hull import import_hull
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.soundness import examine_net
-from assoc_hull.io.importing.verdict import Findings, ImportFinding, Verdict
+from assoc_hull.io.importing.verdict import Findings, Verdict
+from assoc_hull.io.reports import Note
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import Association, HullState, Particulars
@@ -392,7 +393,7 @@ def test_a_pipe_is_refused(name: str, tmp_path: Path) -> None:
 )  # fmt: skip
 def test_a_verdict_in_words(faults: int, suspicions: int, words: str) -> None:
     """It begins with one of three words, and counts what was found."""
-    found = ImportFinding("gap", "ST 1", "70 mm")
+    found = Note("gap", "ST 1", "70 mm")
     assert str(Verdict((found,) * faults, (found,) * suspicions)) == words
 
 
