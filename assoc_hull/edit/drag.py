@@ -43,6 +43,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address
 from assoc_hull.model.dirty_nodes import CLEAN
+from assoc_hull.model.gaps import watched_on
 from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.links import free_axes
 from assoc_hull.model.objects import Point
@@ -71,7 +72,8 @@ class Live:
         Keys of points that the hull would have more, and would have no more; a drag makes and
         takes no curves.
     rows, xyz : (n,) int, (n, 3) m
-        Points of the published hull that changed their place, and where they would be.
+        Points of the published hull that changed their place, watched crossings too, and where
+        they would be.
     relofted : int
         Curves that were lofted.
     report : EditReport or None
@@ -311,6 +313,7 @@ class Drag:
         self.radius = self._felt(state, radius, across_flats)
         self._published = HullShapes.of(state)
         self._number, self._last = state.number, dict[str, float]()
+        self._ground = state
         self._over, self._stop_asked, self._turn = False, False, WriteLock()
 
     def _felt(
@@ -406,11 +409,19 @@ class Drag:
         program = numbers.published.program
         number = program.number[run.curves]
         order = np.argsort(number)
-        curves, rows, asked = number[order], run.rows, dict(self._last)
+        curves, asked = number[order], dict(self._last)
+        rows = self._moved(run.rows, program.watch[run.watched], numbers.values.xyz)
         spline, xyz = numbers.splines(run.curves[order]), numbers.values.xyz[rows]
         freeze(curves, rows, xyz)
         return Live((), curves, spline, (), (), rows, xyz, len(curves), 0.0, self._published,
                     lambda: self._report_of(asked))  # fmt: skip
+
+    def _moved(self, rows: IntArray, watched: IntArray, xyz: FloatArray) -> IntArray:
+        """Add the watched crossings that have moved with their curves to points that changed."""
+        # The run measures them anyway; nothing depends on them, so it does not count them.
+        watched = watched[(xyz[watched] != self._ground.rows.xyz[watched]).any(axis=1)]
+        found: IntArray = np.sort(np.concatenate([rows, watched]))
+        return found
 
     def _report_of(self, asked: dict[str, float]) -> EditReport | None:
         """Give the report of an edit that was tried, if the hull is as it was then."""
@@ -540,6 +551,8 @@ class Drag:
         rows = step.rows[state.rows.alive[step.rows]]
         born, gone = _come_and_gone(step, state)
         known = rows[~np.isin(rows, born)]
+        watched = np.setdiff1d(watched_on(state, curves), np.concatenate([known, born]))
+        known = self._moved(known, watched, state.rows.xyz.data)
         key = state.rows.key.data
         spline = joined([state.spline(curve) for curve in curves.tolist()])
         xyz = state.rows.xyz[known]

@@ -47,6 +47,7 @@ _TYPES = {
 # Blocks anywhere, as types stand within expressions; of the others those on lines of their own,
 # since two slashes within a line may be of an address.
 _COMMENTS = re.compile(r"/\*\*.*?\*/ ?|^[ ]*//[^\n]*", re.DOTALL | re.MULTILINE)
+_INDENT = re.compile(r"^[ ]+", re.MULTILINE)
 _DARK = 0.72
 """Lightness of the colours of families on dark ground."""
 
@@ -62,7 +63,7 @@ class Visitors:
 def static_files() -> Mapping[str, tuple[bytes, str]]:
     """Give all files of the page by name, as they are sent: content and type.
 
-    Scripts come without their comments, which are a third of them, on the same lines.
+    Scripts come without comments, which are a third of them, and indents, on the same lines.
     """
     found = dict[str, tuple[bytes, str]]()
     for each in files("assoc_hull.page").joinpath("static").iterdir():
@@ -89,7 +90,8 @@ def family_colours() -> str:
 
 
 def _without_comments(script: str) -> str:
-    return _COMMENTS.sub(lambda found: "\n" * found[0].count("\n"), script)
+    # No text of the page goes over several lines, so that all indents are only for who reads.
+    return _INDENT.sub("", _COMMENTS.sub(lambda found: "\n" * found[0].count("\n"), script))
 
 
 def _lighter(colour: str) -> str:

@@ -28,6 +28,7 @@ from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError, S
 from assoc_hull.hull.hull import Hull
 from assoc_hull.io.hull_file.saving import is_behind_file
 from assoc_hull.model.address import address
+from assoc_hull.model.kinds import Role
 from assoc_hull.model.objects import Point
 from assoc_hull.page.answers import (
     describe_fairness,
@@ -412,7 +413,10 @@ class Session:
 
     def _live(self, gesture: int, sequence: int, live: Live) -> Frame:
         state, lcb = self.hull.state, live.lcb_change
-        way = (live.xyz - state.rows.xyz[live.rows]) * hull_normals(state)[live.rows]
+        # A watched crossing slides with its lines: how far the hull moves is told by the others.
+        own = state.rows.role[live.rows] != Role.WATCHED
+        rows = live.rows[own]
+        way = (live.xyz[own] - state.rows.xyz[rows]) * hull_normals(state)[rows]
         return Frame(
             FrameKind.LIVE, state.number, live.curves, live.spline, live.rows, live.xyz, gesture,
             sequence, bool(live.born or live.gone), live.seconds, live.volume_change,

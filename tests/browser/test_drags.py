@@ -409,3 +409,101 @@ def test_a_point_is_taken_hold_of_right_after_an_undo(open_page: Open, hull: ah.
     hand.until("p => p.store.history.edits === 0 && p.hand.gripped && !!p.store.held?.amount")
     hand.release()
     assert len(hull.history) == 1
+
+
+def figures(hand: Hand, part: str) -> dict[str, str]:
+    """What a part of the panel tells, by what it is of."""
+    box = hand.page.locator("aside details", has=hand.page.locator("h2", has_text=part)).first
+    names = box.locator("dt").all_inner_texts()
+    return dict(zip(names, box.locator("dd").all_inner_texts(), strict=True))
+
+
+WRITTEN = (
+    "window.said = []; { const whole = CanvasRenderingContext2D.prototype.fillText;"
+    " CanvasRenderingContext2D.prototype.fillText = function (words, ...at) {"
+    " if (words.includes(' mm')) window.said.push(words); return whole.call(this, words, ...at);"
+    " }; }"
+)
+"""Keep what is written in millimetres on a drawing."""
+
+
+def test_a_drag_tells_one_figure_of_each_thing_and_of_what_it_is(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """At the hand the hull, as in the panel; there the point and the line too, each once."""
+    hand = open_page(hull, before=WRITTEN)
+    hand.near(POINT)
+    x, y = hand.press(POINT)
+    hand.to(x + 9.0, y)
+    hand.settled()
+    amount = 1e3 * hand.ask("p => p.store.held.amount")
+    assert hand.page.evaluate("window.said.at(-1)") == f"hull +{amount:.1f} mm"
+    told = figures(hand, "Edit")
+    assert told["hull moves"] == f"{amount:.1f} mm along its normal at most"
+    panel = hand.page.locator("aside").inner_text()
+    assert len(re.findall(r"[\d.]+ mm\b", panel.replace("1 mm", ""))) == 3
+    hand.page.keyboard.press("Escape")
+    hand.page.mouse.up()
+    hand.settled()
+    hand.ask("p => p.use('move')")
+    x, y = hand.press(POINT)
+    hand.to(x + 9.0, y)
+    hand.settled()
+    amount = 1e3 * hand.ask("p => p.store.held.amount")
+    assert hand.page.evaluate("window.said.at(-1)") == f"point +{amount:.1f} mm"
+    assert figures(hand, "Point")["point moved"] == f"{amount:.1f} mm"
+
+
+def test_what_was_let_go_tells_how_far_point_and_line_have_moved(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """As the hand saw it; once it is taken back nothing has moved."""
+    hand = open_page(hull)
+    hand.near(POINT)
+    x, y = hand.press(POINT)
+    hand.to(x + 9.0, y)
+    hand.settled()
+    point, line = figures(hand, "Point")["point moved"], figures(hand, "Curve")["line moved"]
+    assert re.fullmatch(r"[\d.]+ mm", point)
+    hand.release()
+    expect(hand.page.locator("aside .moved")).to_have_text(f"{point}, last edit")
+    assert figures(hand, "Curve")["line moved"] == f"{line}, last edit"
+    hand.ask("p => p.undo()")
+    expect(hand.page.locator("aside .moved")).to_have_text("not moved")
+    assert figures(hand, "Curve")["line moved"] == "not moved"
+
+
+def test_a_refused_pull_says_the_same_after_it_was_let_go(open_page: Open, hull: ah.Hull) -> None:
+    """A pull is made less or wider, also where the hand has left it."""
+    hand = open_page(hull)
+    x, y = hand.press(POINT)
+    hand.page.mouse.move(x + 60.0, y)
+    hand.until("p => p.hand.inFlight === 0 && p.store.refusal")
+    said = hand.page.locator(".bubble").inner_text()
+    assert "Pull less" in said
+    hand.release()
+    hand.until("p => p.store.held === null && p.store.refusal")
+    expect(hand.page.locator(".bubble")).to_have_text(said)
+
+
+def test_dots_of_watched_crossings_ride_with_their_curves(
+    open_page: Open, bulk_carrier: ah.Hull
+) -> None:
+    """While the hand drags they lie where the edit leaves them, and it leaves them elsewhere."""
+    hand = open_page(bulk_carrier.snapshot())
+    name = "WL 11 x ST 19.4"
+    hand.near(name, scale=60.0)
+    x, y = hand.press(name)
+    hand.to(x + 2.0, y)
+    hand.settled()
+    places = (
+        "p => [...p.store.net.points.values()].filter(q => q.sort === 0 && q.role === 3)"
+        ".map(({row}) => [row, ...p.store.placeOf(row)])"
+    )
+    before = hand.ask(places.replace("p.store.placeOf(row)", "p.store.places.get(row)"))
+    seen = hand.ask(places)
+    hand.release()
+    assert len(hand.hull.history) == 1
+    after = hand.ask(places)
+    assert sum(one != other for one, other in zip(before, after, strict=True)) > 3
+    assert seen == after

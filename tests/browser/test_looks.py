@@ -712,15 +712,23 @@ def test_no_point_that_is_drawn_and_no_mark_covers_a_name(open_page: Open, hull:
     assert hand.ask(covered, "body")[1] == []
 
 
-def test_a_narrow_screen_has_no_empty_height(open_page: Open, hull: ah.Hull) -> None:
-    """One view at a time is as high as the hull fills, and the panel begins below it."""
+def test_a_narrow_screen_gives_half_of_its_height_to_the_drawing(
+    open_page: Open, hull: ah.Hull
+) -> None:
+    """The hull fills its width, and lies in its middle; the panel begins below it."""
     hand = open_page(hull, viewport={"width": 390, "height": 844})
-    high, top, foot = hand.ask(
-        "p => { const v = p.views.body, b = v.box();"
-        " return [v.height, v.at(0, 0, b.z1, 1)[1], v.at(0, 0, b.z0, 1)[1]]; }"
+    for kind in VIEWS:
+        hand.page.locator(f".tabs [data-tab={kind}]").click()
+        hand.settled()
+        assert hand.ask("(p, kind) => p.views[kind].height", kind) >= 422
+    hand.page.locator(".tabs [data-tab=body]").click()
+    hand.settled()
+    high, left, right, top, foot = hand.ask(
+        "p => { const v = p.views.body, b = v.box(), [l, t] = v.at(0, b.y1, b.z1, -1),"
+        " [r, f] = v.at(1e3, b.y1, b.z0, 1); return [v.height, l, r, t, f]; }"
     )
-    assert top < 60.0
-    assert high - foot < 45.0
+    assert right - left > 0.8 * 390.0
+    assert abs(top - (high - foot)) < 30.0
     assert hand.ask("p => p.views.body.written.length") > 40
 
 

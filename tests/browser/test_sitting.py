@@ -25,9 +25,9 @@ def proposed(hand: Hand, key: str) -> str:
 
 
 def test_an_edit_tells_the_movement_that_its_preview_told(open_page: Open, hull: ah.Hull) -> None:
-    """Of the hull off itself, and of lines in their planes where that is more: in one wording."""
+    """Along the normal, and of lines in their planes where that is more: in one wording."""
     hand = open_page(hull)
-    figures = r"[\d.]+ mm off itself at most(?:, lines up to [\d.]+ mm in their planes)?"
+    figures = r"[\d.]+ mm along its normal at most(?:, lines up to [\d.]+ mm in their planes)?"
     hand.ask("(p, name) => p.find(name)", POINT)
     before = re.findall(figures, proposed(hand, "n"))
     assert "in their planes" in before[0]
@@ -64,7 +64,7 @@ def test_an_edit_that_is_taken_back_is_no_longer_told(open_page: Open, hull: ah.
     hand.page.locator("footer").get_by_text("Taken back: fuller.").wait_for()
     told = panel(hand, "Edit")
     expect(told).to_contain_text("the hull is as it came", use_inner_text=True)
-    expect(told).not_to_contain_text("off itself", use_inner_text=True)
+    expect(told).not_to_contain_text("along its normal", use_inner_text=True)
     hand.page.get_by_role("button", name="Redo").click()
     hand.page.locator("footer").get_by_text("Made again: fuller.").wait_for()
     expect(told).not_to_contain_text("taken back", use_inner_text=True)

@@ -72,7 +72,7 @@ def test_what_fair_tells_of_its_edit_follows_undo_and_redo(open_page: Open, hull
 def test_a_fair_preview_tells_the_movement_that_its_edit_tells(
     open_page: Open, hull: ah.Hull, noise: str
 ) -> None:
-    """One figure, one rounding: off itself, and of lines in their planes."""
+    """One figure, one rounding: along its normal, and of lines in their planes."""
     hand = open_page(hull)
     hand.ask("(p, name) => p.find(name)", "WL 0.35 x ST 17")
     box = part(hand, "Fair")
@@ -89,7 +89,7 @@ def test_a_fair_preview_tells_the_movement_that_its_edit_tells(
     assert shown is not None
     assert shown[1].endswith("in their planes")
     box.get_by_role("button", name="Apply").click()
-    expect(part(hand, "Edit").locator("dd", has_text="off itself")).to_have_text(shown[1])
+    expect(part(hand, "Edit").locator("dd", has_text="along its normal")).to_have_text(shown[1])
 
 
 def test_values_under_vary_are_those_of_the_hull_also_after_an_undo(

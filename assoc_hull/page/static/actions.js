@@ -6,6 +6,8 @@ import {showChosen} from "./ways.js";
 /** @typedef {{id: string, words: string, keys: string[], label?: (page: Page) => string, pressed?: (page: Page) => boolean, enabled?: (page: Page) => boolean, run: (page: Page) => void}} Action */
 
 const SQUEEZES = [1, 2, 5, 10];
+/** Whether a view is seen whose lengths can be compressed. @param {Page} page */
+const compressible = ({views: {profile, half}}) => profile.shown || half.shown;
 
 /** @param {"combs" | "allCombs" | "movement" | "labels" | "points"} what @param {string} words @param {string} key @returns {Action} */
 const toggle = (what, words, key) => ({
@@ -48,7 +50,7 @@ export const ACTIONS = [
   {id: "pin", words: "Pin the chosen point, one placed by hand or of the lines as given: no edit of others moves it; or unpin it", keys: ["Shift+l"], label: () => "Pin", ...pin},
   {id: "delete", words: "Delete the chosen point, one placed by hand or of the lines as given", keys: ["Delete"], label: () => "Delete", ...remove},
   {id: "reshape", words: "Re-shape the chosen line through places that you click", keys: ["r"], label: () => "Re-shape", enabled: (page) => page.store.selection.curve !== null, run: (page) => page.shaper.start()},
-  {id: "fair-shape", words: "Answer re-shapes fairly", keys: ["Shift+r"], label: () => "Fair re-shapes", pressed: (page) => page.store.tools.fairShapes, run: (page) => page.toggleTool("fairShapes")},
+  {id: "fair-shape", words: "Answer re-shapes fairly", keys: ["Shift+r"], label: () => "Fair re-shapes", enabled: (page) => page.store.selection.curve !== null, pressed: (page) => page.store.tools.fairShapes, run: (page) => page.toggleTool("fairShapes")},
   {id: "pull-by", words: "Pull the chosen point by a number of millimetres", keys: ["g"], enabled: (page) => page.store.selection.row !== null, run: (page) => page.panel.acts.focus()},
   {id: "undo", words: "Undo your last edit", keys: ["Ctrl+z"], label: () => "Undo", enabled: (page) => page.undoes, run: (page) => page.undo()},
   {id: "redo", words: "Redo what was taken back", keys: ["Ctrl+Shift+z", "Ctrl+y"], label: () => "Redo", enabled: (page) => page.hand.free && page.store.history.redo !== null, run: (page) => page.redo()},
@@ -59,7 +61,7 @@ export const ACTIONS = [
   toggle("movement", "Movement, magnified", "m"),
   toggle("labels", "Labels", "b"),
   toggle("points", "All points", "d"),
-  {id: "compress", words: "Compress lengths by 1, 2, 5, 10", keys: ["c"], label: (page) => page.store.squeeze === 1 ? "Compress" : `Compressed × ${page.store.squeeze}`, pressed: (page) => page.store.squeeze !== 1,
+  {id: "compress", words: "Compress lengths by 1, 2, 5, 10", keys: ["c"], enabled: compressible, label: (page) => page.store.squeeze === 1 || !compressible(page) ? "Compress" : `Compressed × ${page.store.squeeze}`, pressed: (page) => page.store.squeeze !== 1 && compressible(page),
     run: (page) => page.compress(SQUEEZES[(SQUEEZES.indexOf(page.store.squeeze) + 1) % SQUEEZES.length])},
   {id: "fit", words: "Show all of the hull", keys: ["0"], label: () => "Fit", run: (page) => page.fit()},
   {id: "fit-selection", words: "Show what is chosen", keys: ["f"], enabled: (page) => page.store.selection.row !== null || page.store.selection.curve !== null, run: showChosen},
@@ -165,7 +167,9 @@ export class Keys {
     }
     if (drawing && event.key === "Enter") return this.burst ? this.finish() : store.shaping ? page.shaper.finish() : void page.panel.proposal.apply();
     if (drawing && event.key === "Backspace" && store.shaping) return page.shaper.back();
-    if (!drawing && !/^Ctrl|^[/?:]$/.test(key)) {
+    // A button of the bar is pressed by Enter and the space bar: letters are free there.
+    const bar = event.target instanceof Element && event.target.closest(".bar button") !== null;
+    if (!drawing && !bar && !/^Ctrl|^[/?:]$/.test(key)) {
       if (/\b[a-z]$/.test(key) && !(event.target instanceof HTMLSelectElement) && actionOf(page, key)) page.say("Letters act in the drawing: Esc leads there.");
       return;
     }

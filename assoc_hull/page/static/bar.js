@@ -80,7 +80,7 @@ export function makeBar(page) {
         const cell = line.insertCell();
         cell.textContent = keys;
       }
-      const note = make("p", {textContent: "Single letters act while a drawing has the focus: click it, or reach it with Tab."});
+      const note = make("p", {textContent: "Single letters act while a drawing or a button of the bar has the focus, arrows and Enter in the drawing: click it, or reach it with Tab."});
       close.type = "button";
       close.textContent = "Close";
       close.onclick = () => dialog.close();

@@ -218,11 +218,12 @@ export class Pointers {
     if (tip.hidden || !net) return;
     const name = make("b", {}, point ? point.label || net.said(point.name) : curve === null ? "" : net.curveName(curve));
     tip.replaceChildren(name, ...point ? [net.roleWords(point), net.wayWords(point)].map((words) => make("span", {}, words)) : []);
-    const right = x > view.width - 250;
-    tip.style.left = right ? "auto" : `${x + 16}px`;
-    tip.style.right = right ? `${view.width - x + 16}px` : "auto";
-    tip.style.top = y > view.height - 90 ? "auto" : `${y + 16}px`;
-    tip.style.bottom = y > view.height - 90 ? `${view.height - y + 16}px` : "auto";
+    // Beside the pointer, on the side that has room for all of it: the view would cut the rest.
+    tip.style.left = tip.style.top = "0";
+    const {offsetWidth: w, offsetHeight: h} = tip, within = (/** @type {number} */ at, /** @type {number} */ most) => `${Math.max(Math.min(at, most), 2)}px`;
+    const below = y + 16 + h <= view.height - 2, above = y - 16 - h >= 2;
+    tip.style.left = within(x + 16 + w <= view.width - 2 ? x + 16 : x - 16 - w, view.width - w - 2);
+    tip.style.top = within(below || !above ? y + 16 : y - 16 - h, view.height - h - 2);
     view.upper.style.cursor = point ? "grab" : curve !== null ? "pointer" : "";
   }
 }

@@ -22,7 +22,7 @@ export class Hand {
     this.wish = null;
     /** @type {Wish | null} */
     this.last = null;
-    /** @type {{gesture: number, row: number, seq: number} | null} */
+    /** @type {{gesture: number, row: number, seq: number, how: "pull" | "move"} | null} */
     this.committing = null;
     /** @type {(() => void) | null} */
     this.onGrip = null;
@@ -140,7 +140,7 @@ export class Hand {
     }
     if (!held.refused && this.onLet?.(held, this.last)) return this.cancel();
     const name = this.store.net?.points.get(held.row)?.name ?? "a point", far = (1e3 * held.amount).toFixed(1);
-    this.committing = {gesture: this.gesture, row: held.row, seq: ++this.seq};
+    this.committing = {gesture: this.gesture, row: held.row, seq: ++this.seq, how: held.how};
     this.send({t: "commit", gesture: this.gesture, seq: this.seq, ...this.last, name: `${held.how} ${name} by ${far} mm`});
     this.#let(false);
   }
@@ -232,7 +232,7 @@ export class Hand {
     if (!mine && !made && !late) return false;
     this.asked.delete(message.seq);
     const held = this.store.held, row = held?.row ?? this.committing?.row ?? message.row ?? null;
-    const text = this.store.said(reasonWords(message.reasons, held?.how === "pull")), place = held ? held.place : row === null ? null : [...(this.store.places.get(row) ?? [])];
+    const text = this.store.said(reasonWords(message.reasons, (held ?? this.committing)?.how === "pull")), place = held ? held.place : row === null ? null : [...(this.store.places.get(row) ?? [])];
     const all = message.reasons.join("\n");
     this.store.refusal = {text, all, row, place, named: this.store.net?.named(all) ?? []};
     if (made) {

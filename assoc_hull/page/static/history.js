@@ -79,7 +79,7 @@ export class Past extends Asker {
       const title = here ? paragraph(this.page.store.said(step.name), "now") : link(this.page.store.said(step.name), () => this.#go(step.number));
       if (here) item.setAttribute("aria-current", "step");
       else title.title = "Bring the hull to the state after this step";
-      item.append(title, paragraph([...names.map((name) => `“${name}”`), note, step.author, clock(step.time), step.normal === null ? "" : `hull moved ${millimetres(step.normal)} off itself at most`].filter(Boolean).join(" · ")));
+      item.append(title, paragraph([...names.map((name) => `“${name}”`), note, step.author, clock(step.time), step.normal === null ? "" : `hull moved ${millimetres(step.normal)} along its normal at most`].filter(Boolean).join(" · ")));
       if (!here) {
         const compare = link("compare with it", () => this.#compare(step.number));
         compare.setAttribute("aria-label", `compare with ${this.page.store.said(step.name)}`);

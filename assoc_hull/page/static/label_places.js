@@ -22,6 +22,8 @@ export class Places {
     this.left = 0;
     this.right = Infinity;
     this.foot = Infinity;
+    /** Where names of lines stand now. @type {View["standing"]["spots"]} */
+    this.standing = new Map();
     /** Whether the family of the view's lines is told, and names that stand in such lines. */
     this.captioned = false;
     /** @type {{name: Name, line: Line}[]} */
@@ -156,11 +158,12 @@ export class Places {
   /** Where no row of names tells the family, a name in a line does. */
   captionInline() {
     for (const {name, line} of this.captioned ? [] : this.inline) {
-      const [l, t, r, b] = name.box, wide = this.wide(line.name) / 2, box = [(l + r) / 2 - wide, t, (l + r) / 2 + wide, b];
+      const caption = this.view.store.net?.caption(line.name.split(" ")[0]), words = caption === "x, m" ? `x ${name.text} m` : line.name;
+      const [l, t, r, b] = name.box, wide = this.wide(words) / 2, box = [(l + r) / 2 - wide, t, (l + r) / 2 + wide, b];
       name.box = [-9, -9, -9, -9]; // it does not stand in its own way
       this.captioned = this.free(box) && !this.dotted(box) && this.inside(box);
       name.box = this.captioned ? box : [l, t, r, b];
-      if (this.captioned) name.text = line.name;
+      if (this.captioned) name.text = words;
       if (this.captioned) return;
     }
   }

@@ -11,7 +11,7 @@ import {HIGH, MANY, Places, UPRIGHT} from "./label_places.js";
 const LETTERS = "11px system-ui, sans-serif", EDGE = 10; // px
 const COLUMN = 12, ROW = 24, WIDEST = 13, LEAST_GAP = 0.2, CLOSE = 0.7, NEAR_GAP = 5, FREE_GAP = 9, TOLD = 1.5, PLAIN = 4; // px
 const SLANT = 0.4, APART = 7, BESIDE = 8, BEYOND = 20;
-const NAMELESS = 600, AGAIN = 320; // what it costs that a line has no name, and none in this half
+const NAMELESS = 600, AGAIN = 320, KEEP = 120; // what it costs that a line has no name, and none in this half; that a name leaves its place
 
 /** @param {string} name */
 const short = (name) => name.replace(/^(ST|WL|BTK|DIA|FR) /, "");
@@ -28,16 +28,20 @@ export function drawLabels(view, g, ink) {
   const {x0, x1, y1, z0, z1} = view.box(), ship = net.particulars, body = view.kind === "body";
   // Leaders of buttocks come out at the stern, where names of the grid would stand.
   const left = Math.max(view.at(body ? 0 : x0, y1, 0, -1)[0] - 8, 40), right = Math.min(view.at(x1, 0, 0, 1)[0] + 8, view.width - 38), foot = Math.min(view.at(0, 0, z0, 1)[1], view.height - 34);
+  // Combs of the bottom stand below the base line of the body plan.
+  if (!body) view.foot = foot + 4;
   frame(view, g, ink, left, right, foot);
   const places = new Places(g, view, ink);
   const of = (/** @type {string} */ family) => net.lines.filter((line) => line.family === family && line.offset !== null && line.axis !== null);
+  const look = [view.axis.o, view.axis.s, view.oy, view.sy, view.width, view.height].join();
+  if (view.standing.look !== look) view.standing = {look, spots: new Map()};
   places.left = left;
   places.foot = foot;
   if (view.steep) places.right = right;
   const [end, way] = /** @type {[number, CanvasTextAlign]} */ (view.steep ? [right, "left"] : [left, "right"]);
   /** One of the row below; none in the column. @param {string} text @param {number} x @param {number} y @param {string} colour */
   const below = (text, x, y, colour) => places.box(text, x, y, "center")[0] > (view.frame.length ? left + 4 : 0) && places.edge(text, x, y, "center", colour);
-  places.edge(body ? "BTK" : "ST", left, foot + 12, "right", ink.soft); // first, or a label has its place
+  places.edge(body ? "BTK" : net.caption("ST"), left, foot + 12, "right", ink.soft); // first, or a label has its place
   if (body) above(places, "sections");
   if (view.kind !== "half") {
     for (const [text, z, colour] of /** @type {[string, number, string][]} */ ([["DWL", ship.draught, ink.water], ["BL", 0, ink.soft]])) {
@@ -54,7 +58,9 @@ export function drawLabels(view, g, ink) {
     places.put("AP", view.at(0, 0, 0, 1)[0], foot + 26, "center", ink.soft);
     places.put("FP", view.at(ship.length, 0, 0, 1)[0], foot + 26, "center", ink.soft);
     const all = of("sections").map((line) => ({name: short(line.name), x: view.at(line.offset ?? 0, 0, 0, 1)[0]})).sort((p, q) => half(p.name) - half(q.name));
-    for (const {name, x} of all) below(name, x, foot + 12, ink.soft);
+    // Where lengths are compressed every other name stands in a second row.
+    const rows = view.store.squeeze > 2 && !view.frame.length ? [12, 25] : [12];
+    for (const {name, x} of all) rows.some((down) => below(name, x, foot + down, ink.soft));
     if (view.kind === "half") {
       if (view.at(0, 0, 0, 1)[1] <= foot + 4) places.edge("CL", left, view.at(0, 0, 0, 1)[1], "right", ink.soft);
       column(places, "BTK", of("buttocks"), left, "right", (y) => view.at(0, y, 0, 1)[1]);
@@ -65,7 +71,22 @@ export function drawLabels(view, g, ink) {
   borders(places);
   places.captionInline();
   places.write();
+  view.standing.spots = places.standing;
 }
+
+const STAY = 24; // px: so far a line may have moved under a name that stays
+
+/** How a name stood in this look before, if this is the place: it does not leap where a line moves a little, or a point is chosen. @param {Places} places @param {Spot} spot */
+function stood({view}, {key, x, y}) {
+  const was = view.standing.spots.get(key);
+  return was && Math.min(Math.abs(x - was.x), Math.abs(y - was.y)) < 1 && Math.abs(x - was.x) + Math.abs(y - was.y) < STAY ? was : undefined;
+}
+
+/** Whether a name stood in its line: it would make the others leap if it joined their row. @param {Places} places @param {Spot} spot */
+const stoodIn = ({view}, {key}) => view.standing.spots.get(key)?.led === false;
+
+/** @param {Places} places @param {Spot} spot @param {boolean} led @param {boolean} [up] */
+const stands = (places, {key, x, y}, led, up = false) => places.standing.set(key, {x, y, led, up});
 
 /** Where the drawing goes on beyond them, names of the grid have a column and a row of their own at the edge of the view, which covers it. @param {View} view @param {CanvasRenderingContext2D} g @param {Record<string, string>} ink @param {number} left @param {number} right @param {number} foot */
 function frame(view, g, ink, left, right, foot) {
@@ -82,10 +103,14 @@ function frame(view, g, ink, left, right, foot) {
 /** Lines that run along the ship are named in themselves, or by leaders from above. @param {Places} places */
 function beside(places) {
   const {view} = places, {x1, y1, z1} = view.box(), written = new Set(), spots = spotsOf(places);
-  within(places, spots, written, 0);
+  const above = view.at(x1, y1, z1, 1)[1] > EDGE + 20;
+  within(places, spots, written, 0, above);
   // Where the top of the drawing is out of the picture, names above it would lie on lines.
-  if (view.at(x1, y1, z1, 1)[1] > EDGE + 20) led(places, spots, written);
-  else within(places, spots, written, NEAR_GAP);
+  if (above) {
+    within(places, spots.filter((each) => stoodIn(places, each)), written, NEAR_GAP);
+    led(places, spots, written);
+    within(places, spots, written, 0);
+  } else within(places, spots, written, NEAR_GAP);
   fanned(places, spots, written);
 }
 
@@ -124,6 +149,7 @@ function above(places, family) {
   const room = Math.floor((view.width - 8) / UPRIGHT[0]);
   for (const {key} of alone) written.add(key);
   within(places, spots, written, 0);
+  within(places, spots.filter((each) => stoodIn(places, each)), written, FREE_GAP);
   // Those that are named nowhere share the end of others, as on paper.
   const fan = [...alone, ...ends.filter(({key}) => !written.has(key))].sort((p, q) => half(p.name) - half(q.name)).slice(0, room).sort(order);
   for (const {key} of alone) if (!fan.some((each) => each.key === key)) written.delete(key);
@@ -136,7 +162,7 @@ function above(places, family) {
   });
   // The family stands at the left, or in the widest gap.
   const gap = xs.slice(1).map((x, i) => ({x: (x + xs[i]) / 2, wide: x - xs[i]})).reduce((p, q) => q.wide > p.wide ? q : p, {x: 0, wide: 0});
-  const title = fan[0]?.line.name.split(" ")[0] ?? "";
+  const title = net?.caption(fan[0]?.line.name.split(" ")[0] ?? "") ?? "";
   if (fan.length) places.caption(title, xs[0] - 10, top - 8, "right", ink[family]) || places.caption(title, gap.x, top - 8, "center", ink[family]);
   within(places, spots, written, FREE_GAP);
   fanned(places, spots, written);
@@ -172,14 +198,16 @@ function spotsOf(places) {
   met.forEach((row, k) => gaps(row, ({id, at}, gap) => add(id, from + COLUMN * (k + 1), at, gap)));
   // A name is wider than it is high.
   level.forEach((row, k) => gaps(row, ({id, at, own}, gap) => { if (own) add(id, at, ROW * (k + 1), gap / 2); }));
-  return found.sort((p, q) => q.gap - p.gap);
+  const first = new Map(found.map((each) => [each, Number(stood(places, each)?.led === false)]));
+  return found.sort((p, q) => (first.get(q) ?? 0) - (first.get(p) ?? 0) || q.gap - p.gap);
 }
 
-/** Names in lines, once in either half; where `least` is 0, only where they cover nothing else. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} least */
-function within(places, spots, written, least) {
+/** Names in lines, once in either half; where `least` is 0, only where they cover nothing else. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} least @param {boolean} [leads] whether leaders follow: a name that had one keeps it */
+function within(places, spots, written, least, leads = false) {
   const {view} = places, middle = view.kind === "body" ? view.at(0, 0, 0, 1)[0] : -Infinity;
-  for (const {line, name, key, x, y, gap, colour} of spots) {
-    if (line.family === "boundary" || written.has(key) || gap <= least) continue;
+  for (const each of spots) {
+    const {line, name, key, x, y, gap, colour} = each;
+    if (line.family === "boundary" || written.has(key) || gap <= least || (leads && view.standing.spots.get(key)?.led)) continue;
     const off = x - middle, align = Math.abs(off) > 20 ? "center" : off < 0 ? "right" : "left";
     // Beside the line where its points leave no room in it.
     const ways = /** @type {[number, CanvasTextAlign][]} */ ([[x, align], ...least ? [[x + BESIDE, "left"], [x - BESIDE, "right"]] : []]);
@@ -190,6 +218,7 @@ function within(places, spots, written, least) {
     });
     if (!found || !places.put(name, found[0], y, found[1], colour)) continue;
     written.add(key);
+    stands(places, each, false);
     places.inline.push({name: places.written[places.written.length - 1], line});
   }
 }
@@ -254,17 +283,19 @@ function led(places, spots, written) {
   const {view} = places, {x1, y1, z1} = view.box(), top = Math.max(view.at(x1, y1, z1, 1)[1] - 6, EDGE + 24), far = view.width - 4;
   const wide = (/** @type {Spot} */ {name}) => places.wide(name), widest = Math.max(...spots.filter(({line}) => line.family !== "boundary").map(wide), 0), room = Math.ceil(widest / 2 + 5);
   const chosen = knees(places, spots, written, top, room), xs = spread(chosen.map(({knee}) => knee), chosen.map(() => room), places.left + room / 2, far - widest / 2 + room / 2);
-  let low = -Infinity;
+  const ends = [-Infinity, -Infinity];
   chosen.forEach((each, i) => {
-    const up = xs[i] - wide(each) / 2 < low + 6 ? 12 : 0;
-    if (!up) low = xs[i] + wide(each) / 2;
+    const free = (/** @type {number} */ row) => xs[i] - wide(each) / 2 >= ends[row] + 6;
+    const up = !free(0) || stood(places, each)?.up && free(1) ? 12 : 0;
+    ends[Number(up > 0)] = xs[i] + wide(each) / 2;
+    stands(places, each, true, up > 0);
     if (places.put(each.name, xs[i], top - 14 - up, "center", each.colour)) leader(places, [[each.x, each.y], [each.knee, top], ...up ? [[xs[i], top - 7]] : [], [xs[i], top - 8 - up]], each.colour, true); // between the names of the lower row
   });
   const [first] = chosen, last = chosen.at(-1);
   if (!first || !last) return;
-  const family = first.line.name.split(" ")[0], ends = /** @type {[number, CanvasTextAlign][]} */ ([[xs[0] - wide(first) / 2 - 7, "right"], [(xs.at(-1) ?? 0) + wide(last) / 2 + 7, "left"]]);
+  const family = first.line.name.split(" ")[0], sides = /** @type {[number, CanvasTextAlign][]} */ ([[xs[0] - wide(first) / 2 - 7, "right"], [(xs.at(-1) ?? 0) + wide(last) / 2 + 7, "left"]]);
   const gaps = xs.slice(1).map((x, i) => ({x: (x + xs[i]) / 2, wide: x - xs[i]})).sort((p, q) => q.wide - p.wide);
-  for (const [x, align] of ends.concat(gaps.slice(0, 1).map((gap) => [gap.x, "center"]))) if (places.caption(family, x, top - 14, align, first.colour)) return;
+  for (const [x, align] of sides.concat(gaps.slice(0, 1).map((gap) => [gap.x, "center"]))) if (places.caption(family, x, top - 14, align, first.colour)) return;
 }
 
 /** Where leaders end on lines without a name, and where they leave the drawing: all of a half slant alike and stand in the order of the lines, so that none crosses another. @param {Places} places @param {Spot[]} spots @param {Set<string>} written @param {number} top @param {number} room @returns {Knee[]} */
@@ -279,7 +310,7 @@ function knees(places, spots, written, top, room) {
       const {line, key, x, y, gap} = each, knee = x + (aft ? -1 : 1) * SLANT * (y - top), twice = written.has(`${line.name}${aft}`);
       if (line.family === "boundary" || x < middle !== aft || y <= top || written.has(key) || gap <= (twice ? CLOSE : LEAST_GAP) || knee < places.left || knee > far || places.under([[x, y], [knee, top]])) continue;
       // Near, and told from its neighbours.
-      const cost = 0.6 * (y - top) + 25 * Math.max(PLAIN - gap, 0) + 6 * Math.max(2 * PLAIN - gap, 0) - (twice ? AGAIN : NAMELESS), known = of.get(line);
+      const cost = 0.6 * (y - top) + 25 * Math.max(PLAIN - gap, 0) + 6 * Math.max(2 * PLAIN - gap, 0) - (twice ? AGAIN : NAMELESS) - (stood(places, each)?.led ? KEEP : 0), known = of.get(line);
       if (known) known.push({...each, knee, cost});
       else of.set(line, [{...each, knee, cost}]);
     }

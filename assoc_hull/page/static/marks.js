@@ -171,7 +171,7 @@ function drawHeld(view, g, ink) {
   g.fill();
   g.stroke();
   if (held.amount === null) return;
-  beside(view, g, ink.paper, ink.hot, signed(1e3 * held.amount, 1, "mm"), x, y);
+  beside(view, g, ink.paper, ink.hot, `${held.how === "pull" ? "hull" : "point"} ${signed(1e3 * held.amount, 1, "mm")}`, x, y);
 }
 
 /** @param {Held} held @returns {number[][]} */

@@ -50,6 +50,15 @@ export class Net {
     this.byName.sort((p, q) => q[0].length - p[0].length);
   }
 
+  /** Whether stations are named by their distance from AP, m, as those of a hull that was read from a surface are. */
+  get inMetres() {
+    const all = this.lines.filter(({family, offset}) => family === "sections" && offset !== null);
+    return all.length > 0 && all.every(({name, offset}) => Math.abs(Number(name.replace(/^\w+ /, "")) - (offset ?? 0)) < 0.0051);
+  }
+
+  /** What stands above or beside names of a family. @param {string} family as in names */
+  caption(family) { return family === "ST" && this.inMetres ? "x, m" : family; }
+
   /** @param {number} curve */
   lineOf(curve) { return this.curves.get(curve)?.line; }
 

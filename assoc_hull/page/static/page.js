@@ -231,6 +231,7 @@ export class Page {
     for (const view of other) if (view.fitted) view.fit();
     // The two low views share their lengths.
     else view.settle(view.kind !== "half" || !this.views.profile.shown);
+    if (other.length) this.panelStale = true; // what is not seen cannot be compressed
     const moved = store.overlay?.frame ?? store.ghost ?? store.theirs?.frame;
     if (moved) magnify(store, moved, this.hand.scale());
     else store.magnified = 0;

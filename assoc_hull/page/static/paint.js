@@ -43,6 +43,7 @@ export function paintHull(view, ink) {
   g.globalAlpha = 1;
   view.written = [];
   view.frame = [];
+  view.foot = Infinity;
   if (view.store.show.labels) drawLabels(view, g, ink);
 }
 
@@ -133,11 +134,13 @@ export function paintOverlay(view, ink) {
   if (chosen !== null) stroke(view, g, chosen, ink.ink, view.kind === "wire" ? 1.4 : 2);
   view.note.textContent = noteOf(view); // the factor is known only now
   if (view.kind === "wire") return;
-  if (store.show.combs) for (const id of combed(view)) drawComb(view, g, ink, id, id === chosen);
+  const carry = store.show.combs ? combed(view) : [];
+  for (const id of carry) drawComb(view, g, ink, id, id === chosen);
   // A name is read through what moves: below is the line that it names.
   for (const {box: [l, t, r, b]} of view.written.slice(1)) g.clearRect(l - 1, t, r - l + 2, b - t);
   for (const [l, t, r, b] of view.frame) g.clearRect(l, t, r - l, b - t);
   drawHandles(view, g, ink);
+  for (const id of carry) drawInflections(view, g, ink, id);
 }
 
 /** @param {View} view */
@@ -295,7 +298,7 @@ function drawComb(view, g, ink, id, strong) {
     g.globalAlpha = strong ? 0.5 : 0.28;
     g.lineWidth = 0.8;
     g.beginPath();
-    for (const {x, y, X, Y} of tips) {
+    for (const [x, y, X, Y] of evenly(tips, PITCH)) {
       g.moveTo(x, y);
       g.lineTo(X, Y);
     }
@@ -307,22 +310,51 @@ function drawComb(view, g, ink, id, strong) {
     g.stroke();
     for (const {X, Y, capped} of tips) if (capped) g.fillRect(X - 3, Y - 1, 6, 2);
     g.globalAlpha = 1;
-    g.fillStyle = ink.hot;
-    const at = new Float64Array(9);
-    for (const {segment, u} of inflections(c, view.a, view.b)) {
-      evaluate(c, segment, u, at);
-      const [x, y] = view.at(at[0], at[1], at[2], given || view.side(at[0]));
-      diamond(g, x, y, 4.5);
-      g.fill();
+  }
+}
+
+const PITCH = 5; // px between the teeth of a comb
+
+/** Teeth at one distance along the curve as it is seen, however long its segments are: foot and tip. @param {{x: number, y: number, X: number, Y: number}[]} tips @param {number} pitch px @returns {[number, number, number, number][]} */
+export function evenly(tips, pitch) {
+  /** @type {[number, number, number, number][]} */
+  const found = [];
+  let gone = 0, next = 0;
+  tips.forEach((p, i) => {
+    const q = tips[i + 1], far = q ? Math.hypot(q.x - p.x, q.y - p.y) : 0;
+    for (; q && next < gone + far; next += pitch) {
+      const t = (next - gone) / far, mix = (/** @type {"x" | "y" | "X" | "Y"} */ key) => p[key] + t * (q[key] - p[key]);
+      found.push([mix("x"), mix("y"), mix("X"), mix("Y")]);
     }
-    g.fillStyle = ink.comb;
+    gone += far;
+  });
+  return found;
+}
+
+const MARK = 8; // px: more than a point, which is seen within it
+
+/** Where a curve changes the side to which it bends, around the points that may lie there. @param {View} view @param {CanvasRenderingContext2D} g @param {Ink} ink @param {number} id */
+function drawInflections(view, g, ink, id) {
+  const c = view.store.curveNow(id), line = view.store.net?.lineOf(id), at = new Float64Array(9);
+  if (!c || !line) return;
+  for (const given of view.sides(line) ?? [0]) for (const {segment, u} of inflections(c, view.a, view.b)) {
+    evaluate(c, segment, u, at);
+    const [x, y] = view.at(at[0], at[1], at[2], given || view.side(at[0]));
+    if (view.framed(x, y)) continue;
+    diamond(g, x, y, MARK);
+    for (const [colour, width] of /** @type {[string, number][]} */ ([[ink.paper, 4], [ink.hot, 2]])) {
+      g.strokeStyle = colour;
+      g.lineWidth = width;
+      g.stroke();
+    }
   }
 }
 
 const EDGE = 3; // px: a tooth that is cut ends so far within the view
 
-/** How much of a tooth lies within the view: all of it, if its foot is out of sight. @param {number} x @param {number} y @param {number} dx @param {number} dy @param {number} long px @param {View} view */
-function within(x, y, dx, dy, long, {width, height}) {
+/** How much of a tooth lies within the view, above the row of names at its foot: all of it, if its own foot is out of sight. @param {number} x @param {number} y @param {number} dx @param {number} dy @param {number} long px @param {View} view */
+function within(x, y, dx, dy, long, {width, height, foot}) {
+  height = Math.min(height, foot + EDGE);
   if (x < EDGE || y < EDGE || x > width - EDGE || y > height - EDGE) return 1;
   const room = (/** @type {number} */ at, /** @type {number} */ by, /** @type {number} */ whole) => by > 0 ? (whole - EDGE - at) / by : by < 0 ? (EDGE - at) / by : Infinity;
   return Math.min(1, Math.min(room(x, dx, width), room(y, dy, height)) / Math.max(long, 1e-9));

@@ -170,7 +170,7 @@ export class Panel {
       if (moved) moved.textContent = this.#movedWords(row);
       return;
     }
-    const role = store.net.roleWords(point), moved = make("span", {className: "moved", title: "From where it lay, off the hull and along it together", textContent: this.#movedWords(row)});
+    const role = store.net.roleWords(point), moved = make("span", {className: "moved", title: "Off the hull and along it together", textContent: this.#movedWords(row)});
     // What is typed stays when somebody else has edited the hull meanwhile.
     const old = this.shownRow === row ? this.fields : [], at = old.findIndex((field) => field === document.activeElement);
     this.fields = AXES.map((name, i) => this.#field(point, name, i, place[i]));
@@ -194,11 +194,18 @@ export class Panel {
     if (at >= 0) this.fields[at].focus();
   }
 
-  /** How far the chosen point is from where it is published. @param {number | null} row */
+  /** How far the chosen point moves in the hand, or has moved by the last edit. @param {number | null} row */
   #movedWords(row) {
-    const {store} = this.page, now = row === null ? undefined : store.overlay?.frame.places.get(row), then = row === null ? undefined : store.places.get(row);
-    if (!now || !then) return "–";
-    return millimetres(Math.hypot(now[0] - then[0], now[1] - then[1], now[2] - then[2]));
+    const movement = this.page.store.movement, now = row === null ? undefined : movement?.now.places.get(row), then = row === null ? undefined : movement?.then.places.get(row);
+    const far = now && then ? Math.hypot(now[0] - then[0], now[1] - then[1], now[2] - then[2]) : 0;
+    return far > 0 ? millimetres(far) + movement?.words : "not moved";
+  }
+
+  /** How far the chosen line does, at most. @param {number} id */
+  #lineMovedWords(id) {
+    const movement = this.page.store.movement, now = movement?.now.curves.get(id), then = movement?.then.curves.get(id);
+    const far = movement && now && then ? farthest(/** @type {any} */ ({curves: new Map([[id, now]])}), movement.then.curves) : 0;
+    return far > 1e-9 ? `${millimetres(far)} at most, in its plane${movement?.words}` : "not moved";
   }
 
   /** @param {Point} point @param {string} name @param {number} axis @param {number} value */
@@ -241,7 +248,6 @@ export class Panel {
     if (id === null || !net || !line || !was || !now) return this.#words(box, "Click a line, or choose it here.");
     const [a, b] = PLANES[line.family] ?? [0, 2], before = inflections(was, a, b).length, after = inflections(now, a, b).length;
     const count = make("span", {textContent: before === after ? `${after}` : `${after}, was ${before}`, className: after > before ? "hot" : ""});
-    const by = now === was ? null : farthest(/** @type {any} */ ({curves: new Map([[id, now]])}), store.curves);
     this.#table(box, [
       ["name", net.curveName(id)],
       ["family", line.family],
@@ -249,19 +255,18 @@ export class Panel {
       ["length", `${arcLength(now).toFixed(3)} m`],
       ["points", `${now.n} define it, ${net.rowsOf.get(id)?.length ?? 0} lie on it`],
       ["inflections", count],
-      ["line moved", by === null ? "–" : `${millimetres(by)} at most, in its plane`],
+      ["line moved", this.#lineMovedWords(id)],
     ]);
   }
 
   #edit() {
     const {store} = this.page, box = this.parts.Edit, {overlay, held, last} = store;
-    if (held?.refused) return this.#table(box, [["asked of the point", held.amount === null ? "–" : millimetres(held.amount)], ["refused", "the reason stands beside the point; lines stay where they could follow last"]]);
+    if (held?.refused) return this.#table(box, [["refused", "the reason stands beside the point; lines stay where they could follow last"]]);
     if (overlay && (held || this.page.hand.committing)) {
       const {frame} = overlay;
       return this.#table(box, [
-        ["asked of the point", held?.amount == null ? "–" : millimetres(held.amount)],
         ["follow", `${count(frame.curves.size, "curve")}, ${count(frame.places.size, "point")}`],
-        ["hull moves", farWords(frame.normal, farthestDrawn(frame, store.curves)) || "nowhere"],
+        ["hull moves", farWords(frame.normal, frame.normal < 1e-9 ? farthestDrawn(frame, store.curves) : 0) || "nowhere"], // lines are told one by one
         [VOLUME, `about ${signed(frame.volume, 2, "m³")}`],
         ["LCB", `about ${signed(frame.lcb, 4, "m")}`],
       ]);

@@ -8,10 +8,10 @@ import {VOLUME, millimetres, signed} from "./units.js";
 
 /** @typedef {{normal: number | null, moved: number, volume_change: number | null, lcb_change: number | null, notes?: string[], refused: string[]}} Cost */
 
-/** How far the hull moves at its points, off itself, and its lines in their planes, where that is more: where it is nearly along a plane, much more, m. @param {number | null} normal @param {number} drawn */
+/** How far the hull moves at its points, along its normal, and its lines in their planes, where that is more: where it is nearly along a plane, much more, m. @param {number | null} normal @param {number} drawn */
 export function farWords(normal, drawn) {
   if ((normal ?? 0) < 1e-9) return drawn < 1e-4 ? "" : `${millimetres(drawn)} at most, between points, which stay`;
-  return `${millimetres(normal ?? 0)} off itself at most${drawn > (normal ?? 0) + 1e-4 ? `, lines up to ${millimetres(drawn)} in their planes` : ""}`;
+  return `${millimetres(normal ?? 0)} along its normal at most${drawn > (normal ?? 0) + 1e-4 ? `, lines up to ${millimetres(drawn)} in their planes` : ""}`;
 }
 
 /** What the ghost that is shown would do. @param {Cost} cost @param {Store} store */

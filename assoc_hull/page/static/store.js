@@ -17,6 +17,8 @@ export class Store {
     /** @type {Map<number, Float64Array>} */
     this.places = new Map();
     this.state = 0;
+    /** How what the last step changed lay before it. @type {{curves: Map<number, Curve>, places: Map<number, Float64Array>}} */
+    this.before = {curves: new Map(), places: new Map()};
     /** The farthest that the last step of the hull moved a line, m. */
     this.drawn = 0;
     /** @type {Overlay | null} */
@@ -71,6 +73,13 @@ export class Store {
   /** Where a point is shown: in the hand, as it would follow, or as it is published. @param {number} row */
   placeOf(row) { return this.overlay?.frame.places.get(row) ?? this.places.get(row); }
 
+  /** What moves in the hand, or has moved by the edit that was made last, and how it lay before; null of neither. */
+  get movement() {
+    const {overlay, curves, places, before, last, state} = this;
+    if (overlay) return {now: overlay.frame, then: {curves, places}, words: ""};
+    return last?.state === state ? {now: {curves, places}, then: before, words: ", last edit"} : null;
+  }
+
   /** @param {number} id */
   curveNow(id) { return this.overlay?.frame.curves.get(id) ?? this.curves.get(id); }
 
@@ -94,6 +103,7 @@ export class Store {
       on: known && this.net?.curveName(known.a),
       curve: this.selection.curve === null ? null : this.net?.curveName(this.selection.curve) ?? null};
     this.net = net;
+    this.before = {curves: this.curves, places: this.places};
     this.curves = frame.curves;
     this.places = frame.places;
     this.state = frame.state;
@@ -112,6 +122,8 @@ export class Store {
 
   /** Takes over what an edit has changed. @param {Frame} frame */
   publish(frame) {
+    const {curves, places} = this, lay = /** @type {<T>(now: Map<number, T>, then: Map<number, T>) => Map<number, T>} */ ((now, then) => new Map([...then].filter(([id]) => now.has(id))));
+    this.before = {curves: lay(frame.curves, curves), places: lay(frame.places, places)};
     for (const [id, curve] of frame.curves) this.curves.set(id, curve);
     for (const [row, place] of frame.places) this.places.set(row, place);
     this.state = frame.state;

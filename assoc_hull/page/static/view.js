@@ -53,6 +53,10 @@ export class View {
     this.written = [];
     /** Boxes at the edge, of names of the grid alone. @type {number[][]} */
     this.frame = [];
+    /** Where names of lines stand while nobody looks elsewhere: where each meets its line, and how it is led there. @type {{look: string, spots: Map<string, {x: number, y: number, led: boolean, up: boolean}>}} */
+    this.standing = {look: "", spots: new Map()};
+    /** Below it is the row of names of the grid, which no comb covers. */
+    this.foot = Infinity;
     /** @type {Map<string, number>} */
     this.scales = new Map();
   }

@@ -129,3 +129,11 @@ test("a sentence names single points as a person says them", () => {
   assert.equal(net.find("given point 5 of btk 0,92"), 7);
   assert.equal(net.find("BTK 0.92 @ adopted 5"), 7);
 });
+
+test("teeth of a comb stand at one distance, however long the segments are", async () => {
+  const {evenly} = await import("./paint.js");
+  const tips = [0, 1, 2, 3, 4, 4, 40, 100].map((x) => ({x, y: 0, X: x, Y: x}));
+  const found = evenly(tips, 5);
+  assert.deepEqual(found.map(([x]) => x), Array.from({length: 20}, (_, i) => 5 * i));
+  for (const [x, y, X, Y] of found) assert.ok(y === 0 && Math.abs(X - x) < 1e-9 && Math.abs(Y - x) < 1e-9);
+});

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.drag import Live
+from assoc_hull.edit.drag import Drag, Live
 from assoc_hull.edit.published_program import LiveNumbers
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import (
@@ -114,6 +114,28 @@ def test_a_hull_file_is_not_touched(tmp_path: Path) -> None:
                 "ship.hull", "ship.hull-wal", "ship.hull-shm",
             }  # fmt: skip
     ship.close()
+
+
+@pytest.mark.parametrize("whole", [False, True])
+def test_a_watched_crossing_is_told_where_its_curves_would_lie(
+    whole: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No edit sets it, and it rides all the same: as the commit leaves it, on either way."""
+    ship, name = hull(), "WL 2.5 x ST 8"
+    with ship.edit("watch") as edit:
+        edit.set_role(name, "watched")
+    row = ship.points[name].row
+    if whole:
+        monkeypatch.setattr(Drag, "_run", lambda self: None)
+    with ship.drag(POINT, radius=RADIUS) as drag:
+        live = drag.to(0.01)
+        assert np.array_equal(live.rows, np.unique(live.rows))
+        told = live.xyz[live.rows.searchsorted(row)]
+        assert live.rows[live.rows.searchsorted(row)] == row
+        before = ship.state.rows.xyz[row]
+        drag.commit("it")
+    assert np.array_equal(told, ship.state.rows.xyz[row])
+    assert np.abs(told - before).max() > 1e-3
 
 
 def test_what_slides_along_a_curve_has_not_moved(fresh_series60_70: ah.Hull) -> None:
