@@ -115,7 +115,7 @@ def refuse_seams(arguments: argparse.Namespace) -> None:
 def hull_plates(arguments: argparse.Namespace) -> int:
     """Find plates of a hull, write what is asked for, and tell of them."""
     from assoc_hull.hull.sources import open as open_hull
-    from assoc_hull.io.tables.hull_plates import hull_plates_document
+    from assoc_hull.io.tables.plates import plates_document
 
     seams = _require_seams(arguments)
     hull = open_hull(arguments.file)
@@ -123,7 +123,7 @@ def hull_plates(arguments: argparse.Namespace) -> int:
         found = _found(hull, seams, arguments)
     saved = _saved(found, arguments)
     words = [str(found), *(f"written: {each}" for each in saved)]
-    emit(arguments, {**hull_plates_document(found), "saved": saved}, "\n".join(words))
+    emit(arguments, {**plates_document(found), "saved": saved}, "\n".join(words))
     return 0
 
 
@@ -349,7 +349,7 @@ def _plates_saved(found: Plates, arguments: argparse.Namespace) -> list[str]:
     if arguments.surfaces is not None:
         from assoc_hull.io.surfaces.surface_file import write_surfaces
 
-        write_surfaces([plate.surface for plate in found], arguments.surfaces)
+        write_surfaces(found.surfaces, arguments.surfaces)
         saved.append(arguments.surfaces)
     return [str(each) for each in saved]
 

@@ -143,7 +143,7 @@ def _schema_of(document: str) -> dict[str, Any]:
 
         return fitted_surface_schema()
     if document == "hull-plates":
-        from assoc_hull.io.tables.hull_plates import hull_plates_schema
+        from assoc_hull.io.tables.plates import hull_plates_schema
 
         return hull_plates_schema()
     from assoc_hull.io.tables.form_parameters import catalogue_schema, form_schema

@@ -28,7 +28,6 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.volume_below import VolumeBelow, integrate_below
 from assoc_hull.io.export.arcs import write_arcs
-from assoc_hull.io.tables.hull_plates import write_hull_plates
 from assoc_hull.io.tables.plates import write_plates
 from assoc_hull.model.objects import Curve, Group, Line
 from assoc_hull.model.tables import HasState, state_of
@@ -43,8 +42,9 @@ from assoc_hull.surface.blocks.fitted_surface import (
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh, mesh_of_net
 from assoc_hull.surface.plating.hull_plates import HullPlateTable, hull_plates
 from assoc_hull.surface.plating.hull_seams import HullSeams
+from assoc_hull.surface.plating.plate_table import PlateTable
 from assoc_hull.surface.plating.rival_fits import other_fits
-from assoc_hull.surface.plating.surface_plates import PlateTable, Seams
+from assoc_hull.surface.plating.surface_plates import Seams
 from assoc_hull.surface.plating.surface_plates import plates as find_plates
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ def arcs_of_hull(
 
 @attrs.frozen(eq=False)
 class Plates(PlateTable):
-    """Plates that can be written; see `assoc_hull.surface.plating.surface_plates.PlateTable`."""
+    """Plates that can be written; see `assoc_hull.surface.plating.plate_table.PlateTable`."""
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the plates, as a table (``.csv``) or as a document (``.json``).
@@ -152,7 +152,7 @@ class HullPlates(HullPlateTable):
         BadInputError
             Another ending, or a file that cannot be written.
         """
-        write_hull_plates(self, path)
+        write_plates(self, path)
 
 
 Surfaces = SplineSurface | Sequence[SplineSurface] | FloatArray

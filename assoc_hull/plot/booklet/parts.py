@@ -45,7 +45,7 @@ from assoc_hull.plot.lines_plan.plan import lines_plan
 from assoc_hull.plot.plates.hull_map import hull_map
 from assoc_hull.plot.plates.lit_surface import surface_figure
 from assoc_hull.surface.blocks.fitted_surface import FittedSurface, surface_faults
-from assoc_hull.surface.plating.hull_plates import COLUMNS, HullPlateTable
+from assoc_hull.surface.plating.hull_plates import HullPlateTable
 from assoc_hull.surface.plating.plate_class import CAVEAT
 
 if TYPE_CHECKING:
@@ -501,10 +501,10 @@ def _plates(asked: BookRequest) -> BookPart:
         raise BadInputError("no plates are given", "in report", "give plates=hull.plates(...)")
     heads = tuple(
         BookColumn(each.head, each.unit, None if each.style == "s" else 3)
-        for each in COLUMNS if each.head
+        for each in found.columns if each.head
     )  # fmt: skip
     rows = tuple(
-        tuple(each.printed(plate) for each in COLUMNS if each.head) for plate in found.rows
+        tuple(each.printed(plate) for each in found.columns if each.head) for plate in found.rows
     )
     advice = BookTable(
         "What to do with each plate",

@@ -43,7 +43,8 @@ from assoc_hull.plot.sheet.paper import MARGIN, PaperName
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, save
 from assoc_hull.plot.sheet.title_block import frame
 from assoc_hull.surface.plating.curvature_nodes import map_value
-from assoc_hull.surface.plating.surface_plates import PlateTable
+from assoc_hull.surface.plating.hull_plates import HullPlateTable
+from assoc_hull.surface.plating.plate_table import PlateTable
 from assoc_hull.surface.regions.options import zero_band
 from assoc_hull.surface.regions.result import RegionResult
 
@@ -187,7 +188,7 @@ def curvature_figure(
     >>> net = np.stack([3 * x, y, 0.1 * x * y], axis=-1)
     >>> figure = curvature_figure(ah.surface.curvature_regions(net))
     """
-    if not isinstance(found, PlateTable):
+    if not isinstance(found, PlateTable) or isinstance(found, HullPlateTable):
         instance(found, RegionResult, "found", _WHERE)
     shown = views_of(views, _WHERE)
     continuous = choice(quantity, "quantity", ("regions", "curvature"), _WHERE) == "curvature"

@@ -32,14 +32,15 @@ from assoc_hull.plot.sheet.labels import wrap_words
 from assoc_hull.plot.sheet.paper import LINE, MARGIN, PaperName, Pen, View, scale_of
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, pdf_of, save
 from assoc_hull.plot.sheet.title_block import caption, frame, scale_bar, title_block
-from assoc_hull.surface.plating.hull_plates import COLUMNS, HullPlateTable
+from assoc_hull.surface.plating.hull_plates import HullPlateTable
 from assoc_hull.surface.plating.hull_seams import AXES
 from assoc_hull.surface.plating.plate_class import CAVEAT
+from assoc_hull.surface.plating.plate_table import HULL_COLUMNS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from assoc_hull.surface.plating.hull_plate import HullPlate
+    from assoc_hull.surface.plating.plate import Plate
 
 __all__ = [
     "hull_map",
@@ -189,6 +190,8 @@ class _Scene:
             return
         stretch = np.array([1.0, _STRETCH])
         for plate in self.found:
+            if plate.range is None:
+                continue
             ends = np.array([plate.range.x, plate.range.girth])
             middle = self._middle(plate.name)
             room = np.where(np.isfinite(ends).all(axis=1), np.ptp(ends, axis=1) * stretch, np.inf)
@@ -389,7 +392,7 @@ def _page(title: str, paper: PaperName) -> tuple[Sheet, float]:
     return sheet, top - 9.0 * factor
 
 
-def _table(rows: Sequence[HullPlate], title: str, paper: PaperName) -> Sheet:
+def _table(rows: Sequence[Plate], title: str, paper: PaperName) -> Sheet:
     """Write some rows of the table."""
     sheet, top = _page(title, paper)
     factor = sheet.paper.factor
@@ -397,7 +400,7 @@ def _table(rows: Sequence[HullPlate], title: str, paper: PaperName) -> Sheet:
     advice = ("advice", "", [plate.suggestion.partition(":")[0] for plate in rows])
     seen = [
         (each.head, each.unit, [each.printed(plate) for plate in rows])
-        for each in COLUMNS
+        for each in HULL_COLUMNS
         if each.head
     ]
     for number, (head, unit, body) in enumerate([*seen, advice]):

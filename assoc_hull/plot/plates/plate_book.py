@@ -19,10 +19,9 @@ from assoc_hull.plot.sheet.labels import wrap_words
 from assoc_hull.plot.sheet.paper import FRAME, LINE, Pen
 from assoc_hull.plot.sheet.report_pages import GREY
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, pdf_of, require_matplotlib
-from assoc_hull.surface.plating.columns import PlateColumn
 from assoc_hull.surface.plating.plate import Plate
 from assoc_hull.surface.plating.plate_class import CAVEAT
-from assoc_hull.surface.plating.surface_plates import COLUMNS, PlateTable
+from assoc_hull.surface.plating.plate_table import PlateColumn, PlateTable
 
 __all__ = ["plate_pdf", "plate_sheet", "plate_sheets"]
 
@@ -134,7 +133,7 @@ class _Book:
 
 def _table(book: _Book, plates: PlateTable) -> None:
     """Write the table; its head stands on each page that it reaches."""
-    columns = [each for each in COLUMNS if each.head]
+    columns = [each for each in plates.columns if each.head]
     rows = [[_cell(each, plate) for each in columns] for plate in plates]
     heads = [[each.head for each in columns], [each.unit for each in columns]]
     wide = [

@@ -22,7 +22,7 @@ from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.cells import CellKind, SignCells
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.plating.plate import Plate
-from assoc_hull.surface.plating.surface_plates import PlateTable
+from assoc_hull.surface.plating.plate_table import PlateTable
 from assoc_hull.surface.regions.level_lines import LevelLine, RegionAreas
 from assoc_hull.surface.regions.result import RegionResult
 
@@ -550,7 +550,7 @@ def _of_plate(plates: PlateTable, number: int, steps: int) -> PlateEntry:
 
 def _told(plate: Plate) -> str:
     """Say of which class a plate is, and how it is rolled."""
-    parts = [plate.kind, shares_of(plate.areas)]
+    parts = [plate.kind or "unresolved", shares_of(plate.areas)]
     if plate.roll_axis is not None:
         parts.append(f"roll axis {plate.roll_axis:.1f}°")
     return "; ".join(parts)

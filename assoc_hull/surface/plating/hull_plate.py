@@ -1,6 +1,6 @@
-"""One plate of a hull: its nodes and extent, what other fits make of it, its class and axis.
+"""How a plate of a hull is judged: its nodes and extent, and what other fits make of it.
 
-`judge_plate` puts a `HullPlate` together from areas, nodes and the doubt of other fits.
+`judge_plate` puts a `Plate` together from areas, nodes and the doubt of other fits.
 Where other fits change the curvature by more than the band, the band is doubled until they do not.
 """
 
@@ -13,27 +13,18 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.display import ShownAsText
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.surface.plating.curvature_nodes import CurvatureNodes, curvature_nodes
 from assoc_hull.surface.plating.hull_seams import AXES, PlateRange
 from assoc_hull.surface.plating.hull_shell import NODES, HullShell
 from assoc_hull.surface.plating.options import PlateOptions
-from assoc_hull.surface.plating.plate import radius_of
-from assoc_hull.surface.plating.plate_areas import Tally, patches_in
-from assoc_hull.surface.plating.plate_class import (
-    COHERENT,
-    PlateShares,
-    Rulings,
-    roll_axis,
-    rulings,
-    suggestion_key,
-)
+from assoc_hull.surface.plating.plate import COARSE, HullExtent, Plate, assemble_plate
+from assoc_hull.surface.plating.plate_areas import TOL, Tally, patches_in
+from assoc_hull.surface.plating.plate_class import PlateShares
+from assoc_hull.surface.regions.level_lines import RegionAreas
 
 __all__ = [
-    "COARSE",
     "CurvatureDoubt",
-    "HullPlate",
     "PlateNodes",
     "doubled_band",
     "judge_plate",
@@ -216,137 +207,6 @@ def _crossings(
 
 
 # --------------------------------------------------------------------------------------
-# The plate.
-
-COARSE = 0.2
-"""The class of a plate of which so much is in doubt is that of the fitted surface alone."""
-
-
-@attrs.frozen(eq=False, repr=False)
-class HullPlate(ShownAsText):
-    """What lies between two butts and two seams of a hull.
-
-    Attributes
-    ----------
-    name : str
-        Its number along the ship, and, after a point, up the girth.
-    range : PlateRange
-        Between which places it lies.
-    blocks : tuple of str
-        The blocks of the surface that it has a part of.
-    area : float, m2
-        Its area.
-    area_error : float, m2
-        What its area and those of its regions may be off by, as areas of this surface.
-    length, breadth : float, m
-        The larger and the smaller extent along e1 and e2.
-    axes : (3, 3)
-        The axes e1 (along), e2, e3 of the plate, as rows; seen from outside, e2 lies to the right
-        of e1.
-    dk : float or None, 1/m2
-        By how much Gaussian curvature changes between fits of the same net, on 95 % of the plate;
-        None if no other fit was given.
-    k0 : float, 1/m2
-        Half the width of the band that counts as no curvature: that which was asked for, doubled
-        until it is not below `dk`.
-    shares : PlateShares
-        Convex, saddle, cylinder, flat and unresolved parts of the area, together 1.
-    contested : float
-        The part of the area with K0/2 <= |K| <= 2 K0: which region it belongs to is in doubt.
-    changed : float
-        The part outside that, of which another fit tells another region, or a curvature that
-        differs by more than the K0 that was asked for.
-    kind : {"flat", "cylinder", "saddle", "convex", "mixed"} or None
-        The class of the fitted surface, in doubt where `is_doubtful`; None where too much is
-        unresolved.
-    order : {1, 2, 3} or None
-        1 flat, 2 bent one way, 3 bent both ways.
-    rollable : bool
-        Whether cylinder and flat parts together have the asked share.
-    roll_axis : float or None, degrees
-        The direction it is rolled about, from e1 towards e2, 0 to 180; None where no single one
-        serves.
-    roll_direction : (3,) or None
-        The same in space.
-    coherence : float
-        How well the directions of bending agree, 0 to 1.
-    least_radius, largest_radius : float or None, m
-        One over the larger principal curvature, where it is most and where it is least.
-    total_curvature : float
-        The integral of |K| dA.
-    mean_strain, largest_strain : float
-        |K| b**2 / 8 with the plate's own breadth b, mean and largest.
-    suggestion : str
-        Advice, no instruction.
-    notes : tuple of str
-        What is to be known of it, each a sentence.
-    nodes : CurvatureNodes
-        Curvature at nodes; those outside the plate have no area.
-    """
-
-    name: str
-    range: PlateRange
-    blocks: tuple[str, ...]
-    area: float
-    area_error: float
-    length: float
-    breadth: float
-    axes: FloatArray
-    dk: float | None
-    k0: float
-    shares: PlateShares
-    contested: float
-    changed: float
-    kind: str | None
-    order: int | None
-    rollable: bool
-    roll_axis: float | None
-    roll_direction: FloatArray | None
-    coherence: float
-    least_radius: float | None
-    largest_radius: float | None
-    total_curvature: float
-    mean_strain: float
-    largest_strain: float
-    suggestion: str
-    notes: tuple[str, ...]
-    nodes: CurvatureNodes = attrs.field(repr=False)
-
-    def __attrs_post_init__(self) -> None:
-        freeze(self.axes)
-        if self.roll_direction is not None:
-            freeze(self.roll_direction)
-
-    @property
-    def doubt(self) -> float:
-        """The part of the area of which the region is in doubt: contested and changed parts."""
-        return self.contested + self.changed
-
-    @property
-    def is_doubtful(self) -> bool:
-        """Whether so much is in doubt (a fifth) that the net does not tell the class for certain.
-
-        It is that of the fitted surface then, the best that is known.
-        """
-        return self.doubt > COARSE
-
-    def rulings(self, count: int = 9) -> Rulings:
-        """Give the mean direction of rulings in stretches along the plate; see `Plate.rulings`."""
-        return rulings(self.nodes, self.axes, count)
-
-    def __str__(self) -> str:
-        """Say in a line what it is."""
-        kind = self.kind or "unresolved"
-        if self.is_doubtful:
-            kind += f" (in doubt on {100.0 * self.doubt:.0f} %)"
-        axis = "no roll axis" if self.roll_axis is None else f"roll axis {self.roll_axis:.1f} deg"
-        return (
-            f"{self.name} ({self.range}): {self.length:.2f} x {self.breadth:.2f} m, "
-            f"{self.area:.3f} m2, {kind}, {axis}, {100.0 * self.contested:.1f} % contested"
-        )
-
-
-# --------------------------------------------------------------------------------------
 # How it is judged: areas, doubt, class, axis, strains.
 
 _WIDE = 2.0
@@ -372,7 +232,7 @@ def judge_plate(
     band: tuple[float, float],
     asked: float,
     options: PlateOptions,
-) -> HullPlate:
+) -> Plate:
     """Put a plate together of its nodes, its areas above the levels of `levels_about`, and doubts.
 
     `band` is K0, 1/m2, and the breadth that it is meant for, m; `asked` K0 before it was widened.
@@ -380,29 +240,16 @@ def judge_plate(
     nodes, (k0, band_breadth) = measured.nodes, band
     axes = measured.axes
     breadth, length = np.sort(measured.extents(axes)).tolist()
-    shares = _shares(tallied, nodes, k0, options.flat_bend(band_breadth))
+    areas = _areas(tallied)
+    shares = _shares(areas, nodes, k0, options.flat_bend(band_breadth))
     contested = _contested(tallied)
     changed = doubt.changed(nodes.gauss, nodes.area, k0, _WIDE, asked)
-    kind = _kind(shares, options.share)
-    rollable = shares.rollable(options.share)
-    axis = roll_axis(nodes, axes)
-    single = kind != "flat" and axis.coherence >= COHERENT
-    strain, amount = breadth**2 / 8.0, np.abs(nodes.gauss)
-    whole = float((nodes.area * amount).sum())
-    there = nodes.bent[nodes.area > 0.0]
-    return HullPlate(
-        name=wanted.name, range=wanted, blocks=tuple(blocks), area=tallied.area,
-        area_error=tallied.off, length=length, breadth=breadth, axes=axes, dk=doubt.dk, k0=k0,
-        shares=shares, contested=contested, changed=changed, kind=kind,
-        order=None if kind is None else shares.order(options.share), rollable=rollable,
-        roll_axis=axis.angle_deg if single else None,
-        roll_direction=axis.direction if single else None, coherence=axis.coherence,
-        least_radius=radius_of(float(there.max())),
-        largest_radius=radius_of(0.0 if shares.flat > 0.0 else float(there.min())),
-        total_curvature=whole, mean_strain=strain * whole / float(nodes.area.sum()),
-        largest_strain=strain * float(amount[nodes.area > 0.0].max()),
-        suggestion=_advice(kind, contested + changed, rollable, single, options),
-        notes=_notes(wanted.name, tallied, contested, changed, doubt, k0 / asked), nodes=nodes,
+    return assemble_plate(
+        nodes, shares, _kind(shares, options.share), options,
+        name=wanted.name, areas=areas, length=length, breadth=breadth, axes=axes, k0=k0,
+        band_breadth=band_breadth, heating=areas.positive + areas.negative > TOL * areas.total,
+        notes=_notes(wanted.name, tallied, contested, changed, doubt, k0 / asked),
+        extent=HullExtent(wanted, tuple(blocks), nodes, doubt.dk, contested, changed),
     )  # fmt: skip
 
 
@@ -412,18 +259,25 @@ def _kind(shares: PlateShares, share: float) -> str | None:
     return None if kind == "mixed" and shares.unresolved > 1.0 - share else kind
 
 
-def _shares(tallied: Tally, nodes: CurvatureNodes, k0: float, flat_bend: float) -> PlateShares:
-    """Give the shares of regions."""
-    area, settled = tallied.area, tallied.area - tallied.margin
+def _areas(tallied: Tally) -> RegionAreas:
+    """Give the areas of regions; what lies beside borders of blocks is unresolved."""
+    settled = tallied.area - tallied.margin
     convex, not_saddle = tallied.above[:2].tolist()
     saddle = max(settled - not_saddle, 0.0)
     zero = max(settled - convex - saddle, 0.0)
+    return RegionAreas(
+        convex, saddle, zero, tallied.margin, convex, saddle, tallied.off, tallied.area
+    )
+
+
+def _shares(areas: RegionAreas, nodes: CurvatureNodes, k0: float, flat_bend: float) -> PlateShares:
+    """Give the shares of regions; nodes, not samples between them, part cylinder from flat."""
     small = nodes.area * (np.abs(nodes.gauss) <= k0)
-    whole = float(small.sum())
+    whole, area, zero = float(small.sum()), areas.total, areas.zero
     flat = float((small * (nodes.bent <= flat_bend)).sum()) / whole if whole > 0.0 else 0.0
     return PlateShares(
-        convex / area, saddle / area, zero * (1.0 - flat) / area, zero * flat / area,
-        tallied.margin / area,
+        areas.positive_share, areas.negative_share, zero * (1.0 - flat) / area, zero * flat / area,
+        areas.unresolved_share,
     )  # fmt: skip
 
 
@@ -431,16 +285,6 @@ def _contested(tallied: Tally) -> float:
     """Give the part with K0/2 <= |K| <= 2 K0."""
     half, minus_half, double, minus_double = tallied.above[2:].tolist()
     return float(max(half - double + minus_double - minus_half, 0.0) / tallied.area)
-
-
-def _advice(
-    kind: str | None, doubt: float, rollable: bool, single: bool, options: PlateOptions
-) -> str:
-    """Give the suggestion, with the doubt where it is large; none for a plate without a class."""
-    if kind is None:
-        return "none: too much of it is unresolved"
-    advice = options.suggestions[suggestion_key(kind, rollable, single)]
-    return f"{advice} (in doubt on {100.0 * doubt:.0f} % of it)" if doubt > COARSE else advice
 
 
 def _notes(

@@ -7,28 +7,17 @@ Areas are those of the surface itself, as butts, seams and level lines are zero 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 import attrs
 import numpy as np
 
 from assoc_hull.arguments import all_of, choice, instance
-from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.blocks.fitted_surface import FittedSurface
-from assoc_hull.surface.plating.columns import (
-    PlateColumn,
-    attribute_getter,
-    column_of,
-    plate_at,
-    printed_rows,
-    share_getter,
-)
 from assoc_hull.surface.plating.hull_plate import (
     CurvatureDoubt,
-    HullPlate,
     PlateNodes,
     doubled_band,
     judge_plate,
@@ -37,6 +26,7 @@ from assoc_hull.surface.plating.hull_plate import (
 from assoc_hull.surface.plating.hull_seams import HullSeams, PlateRange
 from assoc_hull.surface.plating.hull_shell import HullShell
 from assoc_hull.surface.plating.options import SAGITTA_TOL, SHARE, PlateOptions, plate_options
+from assoc_hull.surface.plating.plate import Plate
 from assoc_hull.surface.plating.plate_areas import (
     LevelTable,
     Tally,
@@ -44,14 +34,13 @@ from assoc_hull.surface.plating.plate_areas import (
     levels_about,
     tallies,
 )
-from assoc_hull.surface.plating.plate_class import CAVEAT
+from assoc_hull.surface.plating.plate_table import HULL_COLUMNS, PlateColumn, PlateTable
 from assoc_hull.surface.plating.rival_fits import rival_curvature
 from assoc_hull.surface.regions.curvature_regions import curvature_regions
 from assoc_hull.surface.regions.options import BREADTH, STRAIN_TOL, zero_band
 from assoc_hull.surface.regions.result import RegionResult
 
 __all__ = [
-    "COLUMNS",
     "HullPlateTable",
     "hull_plates",
 ]
@@ -61,59 +50,16 @@ _SEEN = 1e-3
 """m2: slivers below this are not reported."""
 
 
-class _ClassColumn(PlateColumn):
-    """The class, in print with a question mark where it is in doubt."""
-
-    def printed(self, plate: HullPlate) -> str:
-        """Write the class."""
-        return super().printed(plate) + "?" * plate.is_doubtful
-
-
-COLUMNS: tuple[PlateColumn, ...] = (
-    PlateColumn("name", "", "plate", "s", attribute_getter("name")),
-    PlateColumn("range", "", "", "s", lambda plate: str(plate.range)),
-    PlateColumn("area", "m2", "area", ".3f", attribute_getter("area")),
-    PlateColumn("length", "m", "a", ".2f", attribute_getter("length")),
-    PlateColumn("breadth", "m", "b", ".2f", attribute_getter("breadth")),
-    PlateColumn("k0", "1/m2", "K0", ".3g", attribute_getter("k0")),
-    PlateColumn("dk", "1/m2", "dK", ".1e", attribute_getter("dk")),
-    PlateColumn("convex", "%", "convex", ".1f", share_getter("convex")),
-    PlateColumn("saddle", "%", "saddle", ".1f", share_getter("saddle")),
-    PlateColumn("cylinder", "%", "cyl.", ".1f", share_getter("cylinder")),
-    PlateColumn("flat", "%", "flat", ".1f", share_getter("flat")),
-    PlateColumn("unresolved", "%", "unres.", ".1f", share_getter("unresolved")),
-    PlateColumn("contested", "%", "contested", ".1f", lambda plate: 100.0 * plate.contested),
-    PlateColumn("changed", "%", "changed", ".1f", lambda plate: 100.0 * plate.changed),
-    _ClassColumn("kind", "", "class", "s", attribute_getter("kind")),
-    PlateColumn("roll_axis", "deg", "axis", ".1f", attribute_getter("roll_axis")),
-    PlateColumn("coherence", "", "coh.", ".2f", attribute_getter("coherence")),
-    PlateColumn("least_radius", "m", "R least", ".2f", attribute_getter("least_radius")),
-    PlateColumn("mean_strain", "", "strain", ".1e", attribute_getter("mean_strain")),
-    PlateColumn("order", "", "", "", attribute_getter("order")),
-    PlateColumn("rollable", "", "", "", attribute_getter("rollable")),
-    PlateColumn("largest_radius", "m", "", "", attribute_getter("largest_radius")),
-    PlateColumn("total_curvature", "", "", "", attribute_getter("total_curvature")),
-    PlateColumn("largest_strain", "", "", "", attribute_getter("largest_strain")),
-    PlateColumn("area_error", "m2", "", "", attribute_getter("area_error")),
-    PlateColumn("suggestion", "", "", "", attribute_getter("suggestion")),
-)
-"""The columns, in the order of files; those with a head are printed."""
-
-
 @attrs.frozen(eq=False, repr=False)
-class HullPlateTable(ShownAsText):
+class HullPlateTable(PlateTable):
     """Plates of a hull, one row each, from aft forward and from below upward.
 
     Attributes
     ----------
-    rows : tuple of HullPlate
-        The plates.
+    results : tuple of RegionResult
+        One: the regions of the whole surface, with lines at K0/2 and 2 K0, too.
     seams : HullSeams
         What cuts them.
-    options : PlateOptions
-        By what they were told apart.
-    regions : RegionResult
-        The regions of the whole surface, with lines at K0/2 and 2 K0, too.
     fits : int
         With how many other fits of the net curvature was compared.
     shell : HullShell
@@ -122,39 +68,20 @@ class HullPlateTable(ShownAsText):
         What is too narrow for a plate, and in none of the rows.
     """
 
-    rows: tuple[HullPlate, ...]
     seams: HullSeams
-    options: PlateOptions
-    regions: RegionResult = attrs.field(repr=False)
     fits: int
     shell: HullShell = attrs.field(repr=False)
     slivers: float = 0.0
 
-    def __len__(self) -> int:
-        return len(self.rows)
-
-    def __iter__(self) -> Iterator[HullPlate]:
-        return iter(self.rows)
-
-    def __getitem__(self, which: int | str) -> HullPlate:
-        """Give a plate by its number from 0, or by its name.
-
-        Raises
-        ------
-        BadInputError, UnknownNameError, WrongTypeError
-            No such number or name.
-        """
-        return plate_at(self.rows, which, "in HullPlates")
+    @property
+    def columns(self) -> tuple[PlateColumn, ...]:
+        """The columns, in the order of files; those with a head are printed."""
+        return HULL_COLUMNS
 
     @property
-    def area(self) -> float:
-        """The area of all plates, m2; of half the hull."""
-        return float(sum(plate.area for plate in self.rows))
-
-    @property
-    def computed(self) -> int:
-        """How many Bezier patches were computed; the others were taken from earlier plates."""
-        return self.regions.computed
+    def regions(self) -> RegionResult:
+        """The regions of the whole surface."""
+        return self.results[0]
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -172,26 +99,14 @@ class HullPlateTable(ShownAsText):
             )
         return tuple(found)
 
-    def column(self, name: str) -> list[Any]:
-        """Give what all plates have in a column.
+    @property
+    def _called(self) -> str:
+        return "HullPlates"
 
-        Raises
-        ------
-        UnknownNameError
-            No such column.
-        """
-        return column_of(COLUMNS, self.rows, name)
-
-    def table(self) -> list[dict[str, Any]]:
-        """Give all as plain values, a dictionary for each plate; units are those of `COLUMNS`."""
-        return [{each.name: each.value(plate) for each in COLUMNS} for plate in self.rows]
-
-    def __str__(self) -> str:
-        """Write the table, and what is to be known."""
-        advice = (f"{plate.name}, {plate.range}: {plate.suggestion}." for plate in self.rows)
-        return "\n".join(
-            [*printed_rows(COLUMNS, self.rows), "", *advice, CAVEAT, *self._facts(), *self.notes]
-        )
+    def _advice(self) -> Iterator[str]:
+        """Write the suggestion of each plate, with the range that it lies in."""
+        for plate in self.rows:
+            yield f"{plate.name}, {plate.range}: {plate.suggestion}."
 
     def _facts(self) -> Iterator[str]:
         """Say what counted as no curvature, and of what the areas are."""
@@ -298,7 +213,7 @@ def hull_plates(
             "no plate lies between these seams", _WHERE,
             "give places within the hull: x forward from AP, z upward from the base line, m",
         )  # fmt: skip
-    return HullPlateTable(found, seams, options, regions, len(fits), shell, slivers)
+    return HullPlateTable(found, options, (regions,), seams, len(fits), shell, slivers)
 
 
 Blocks = tuple[
@@ -342,14 +257,14 @@ class _Work:
     options: PlateOptions
     rivals: Sequence[FloatArray]
 
-    def plates(self, ranges: Sequence[PlateRange]) -> tuple[tuple[HullPlate, ...], float]:
+    def plates(self, ranges: Sequence[PlateRange]) -> tuple[tuple[Plate, ...], float]:
         """Give the plates of ranges, and what is left out as too narrow, m2."""
         tried = [self._draft(each) for each in ranges]
         drafts = [each for each in tried if each is not None]
         none = [wanted for wanted, each in zip(ranges, tried, strict=True) if each is None]
         bare = LevelTable(self._table(self.level)[1].total, {}, {})
         slivers = sum(each.area for each in tallies(self.shell, none, (), bare)) if none else 0.0
-        found: dict[str, HullPlate] = {}
+        found: dict[str, Plate] = {}
         for k0 in sorted({each.k0 for each in drafts}):
             own = [each for each in drafts if each.k0 == k0]
             sums = tallies(self.shell, [each.wanted for each in own], *self._table(k0))
@@ -376,7 +291,7 @@ class _Work:
         doubt = CurvatureDoubt.of(measured.nodes.gauss, rivals, sound)
         return _Draft(wanted, measured, doubt, doubled_band(self.level, doubt.dk))
 
-    def _plate(self, draft: _Draft, tallied: Tally) -> HullPlate:
+    def _plate(self, draft: _Draft, tallied: Tally) -> Plate:
         """Judge a plate."""
         blocks = np.unique(self.shell.patches.surface[draft.measured.rows]).tolist()
         names = [self.names[number] for number in blocks]

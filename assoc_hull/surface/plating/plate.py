@@ -1,6 +1,7 @@
-"""One plate of a surface: its length and breadth, class, roll axis, strains and notes.
+"""One plate: its length and breadth, class, roll axis, strains and notes.
 
-`plate_of` makes a `Plate` of a surface, the regions found on it and curvature at nodes.
+`plate_of` makes a `Plate` of a surface, `assoc_hull.surface.plating.hull_plate` one of a hull; what
+both find in the same way from curvature at nodes is in `assemble_plate`.
 What is found of a plate does not depend on the others that are asked for with it.
 The axis e1 runs along the plate, e2 across, by the second moments of area.
 """
@@ -8,16 +9,19 @@ The axis e1 runs along the plate, e2 across, by the second moments of area.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import attrs
 import numpy as np
 
 from assoc_hull.arguments import integer
 from assoc_hull.display import ShownAsText
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.plating.curvature_nodes import CurvatureNodes, curvature_nodes
 from assoc_hull.surface.plating.development import Development, development
+from assoc_hull.surface.plating.hull_seams import PlateRange
 from assoc_hull.surface.plating.options import PlateOptions
 from assoc_hull.surface.plating.plate_class import (
     COHERENT,
@@ -33,9 +37,12 @@ from assoc_hull.surface.regions.options import ZeroBand
 from assoc_hull.surface.regions.result import RegionResult
 
 __all__ = [
+    "COARSE",
     "SLIVER",
+    "HullExtent",
     "Plate",
     "PlateDraft",
+    "assemble_plate",
     "draft_plate",
     "plate_axes",
     "plate_extents",
@@ -171,6 +178,40 @@ def _regions(name: str, areas: RegionAreas, shares: PlateShares, kind: str) -> I
 # The plate.
 
 
+COARSE = 0.2
+"""The class of a plate of which so much is in doubt is that of the fitted surface alone."""
+
+
+@attrs.frozen(eq=False)
+class HullExtent:
+    """Where on a hull a plate lies, and what the fit of the hull leaves open there.
+
+    Attributes
+    ----------
+    range : PlateRange
+        Between which places it lies.
+    blocks : tuple of str
+        The blocks of the surface that it has a part of.
+    nodes : CurvatureNodes
+        Curvature at nodes; those outside the plate have no area.
+    dk : float or None, 1/m2
+        By how much Gaussian curvature changes between fits of the same net, on 95 % of the plate;
+        None if no other fit was given.
+    contested : float
+        The part of the area with K0/2 <= |K| <= 2 K0: which region it belongs to is in doubt.
+    changed : float
+        The part outside that, of which another fit tells another region, or a curvature that
+        differs by more than the K0 that was asked for.
+    """
+
+    range: PlateRange
+    blocks: tuple[str, ...]
+    nodes: CurvatureNodes = attrs.field(repr=False)
+    dk: float | None
+    contested: float
+    changed: float
+
+
 @attrs.frozen(eq=False, repr=False)
 class Plate(ShownAsText):
     """A plate of a shell: regions, class, roll axis, what forming takes.
@@ -178,29 +219,28 @@ class Plate(ShownAsText):
     Attributes
     ----------
     name : str
-        Its name; "plate 3" of the third that has none.
-    surface : SplineSurface
-        Its shape.
-    number : int
-        The number of this surface in its `RegionResult`.
+        Its name; "plate 3" of the third that has none. On a hull its number along the ship, and,
+        after a point, up the girth.
     areas : RegionAreas
-        The areas of its regions, m2.
+        The areas of its regions, m2; on a hull what lies beside borders of blocks is unresolved.
     length, breadth : float, m
-        The larger and the smaller extent, of control points along e1 and e2; of a plate between
-        seams the mean lengths of opposite borders.
+        The larger and the smaller extent along e1 and e2, of control points, on a hull of the
+        plate itself; of a plate between seams of parameters the mean lengths of opposite borders.
     axes : (3, 3)
         The axes e1 (along), e2, e3 of the plate, as rows; seen from the side that r_u x r_v points
-        to, e2 lies to the right of e1.
+        to, outside of a hull, e2 lies to the right of e1.
     k0 : float, 1/m2
-        Half the width of the band of Gaussian curvatures that count as none.
+        Half the width of the band of Gaussian curvatures that count as none; on a hull that which
+        was asked for, doubled until it is not below `dk`.
     band_breadth : float, m
         The breadth that the band, and the sagitta of what is flat, are meant for.
     shares : PlateShares
         Convex, saddle, cylinder, flat and unresolved parts of the area, together 1.
-    kind : {"flat", "cylinder", "saddle", "convex", "mixed"}
-        The class: the region that has the asked share.
-    order : {1, 2, 3}
-        1 flat, 2 bent one way, 3 bent both ways.
+    kind : {"flat", "cylinder", "saddle", "convex", "mixed"} or None
+        The class: the region that has the asked share. On a hull that of the fitted surface, in
+        doubt where `is_doubtful`; None where too much is unresolved.
+    order : {1, 2, 3} or None
+        1 flat, 2 bent one way, 3 bent both ways; None without a class.
     rollable : bool
         Whether cylinder and flat parts together have the asked share.
     roll_axis : float or None, degrees
@@ -219,17 +259,21 @@ class Plate(ShownAsText):
         |K| b**2 / 8 with the plate's own breadth b, mean and largest.
     heating : bool
         Whether there are regions where the strain exceeds the tolerance: convex or saddle parts.
-    lines : int
-        How many lines part its regions.
     suggestion : str
         Advice, no instruction.
     notes : tuple of str
         What is to be known of it, each a sentence.
+    surface : SplineSurface or None
+        Its shape; None on a hull, of whose blocks it has parts.
+    number : int
+        The number of this surface in its `RegionResult`; 0 on a hull, where blocks are surfaces.
+    lines : int or None
+        How many lines part its regions; None on a hull, where they are not counted by plate.
+    extent : HullExtent or None
+        Where on a hull it lies; None of a plate of single surfaces.
     """
 
     name: str
-    surface: SplineSurface
-    number: int
     areas: RegionAreas
     length: float
     breadth: float
@@ -237,8 +281,8 @@ class Plate(ShownAsText):
     k0: float
     band_breadth: float
     shares: PlateShares
-    kind: str
-    order: int
+    kind: str | None
+    order: int | None
     rollable: bool
     roll_axis: float | None
     roll_direction: FloatArray | None
@@ -249,9 +293,12 @@ class Plate(ShownAsText):
     mean_strain: float
     largest_strain: float
     heating: bool
-    lines: int
     suggestion: str
     notes: tuple[str, ...]
+    surface: SplineSurface | None = None
+    number: int = 0
+    lines: int | None = None
+    extent: HullExtent | None = None
 
     def __attrs_post_init__(self) -> None:
         freeze(self.axes)
@@ -264,9 +311,57 @@ class Plate(ShownAsText):
         return self.areas.total
 
     @property
+    def area_error(self) -> float:
+        """What its area and those of its regions may be off by, m2."""
+        return self.areas.error_estimate
+
+    @property
     def unresolved_area(self) -> float:
-        """The area of which the search did not tell the region, m2."""
+        """The area of which the region is not told, m2."""
         return self.areas.unresolved
+
+    @property
+    def nodes(self) -> CurvatureNodes:
+        """Curvature at nodes; on a hull those outside the plate have no area."""
+        return self.extent.nodes if self.extent else curvature_nodes(self._shape().patches())
+
+    @property
+    def range(self) -> PlateRange | None:
+        """Between which places of a hull it lies; None of a plate of single surfaces."""
+        return self.extent.range if self.extent else None
+
+    @property
+    def blocks(self) -> tuple[str, ...]:
+        """The blocks of a hull that it has a part of; none of a plate of single surfaces."""
+        return self.extent.blocks if self.extent else ()
+
+    @property
+    def dk(self) -> float | None:
+        """What curvature changes by between fits, 1/m2; None without other fits."""
+        return self.extent.dk if self.extent else None
+
+    @property
+    def contested(self) -> float:
+        """The part with K0/2 <= |K| <= 2 K0; nil of a surface that is given, not fitted."""
+        return self.extent.contested if self.extent else 0.0
+
+    @property
+    def changed(self) -> float:
+        """The part outside that, which other fits tell otherwise; nil without a fit."""
+        return self.extent.changed if self.extent else 0.0
+
+    @property
+    def doubt(self) -> float:
+        """The part of the area of which the region is in doubt: contested and changed parts."""
+        return self.contested + self.changed
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether so much is in doubt (a fifth) that the net does not tell the class for certain.
+
+        It is that of the fitted surface then, the best that is known.
+        """
+        return self.doubt > COARSE
 
     def rulings(self, count: int = 9) -> Rulings:
         """Give the mean direction of rulings in stretches along the plate.
@@ -300,7 +395,7 @@ class Plate(ShownAsText):
         (3,)
         """
         integer(count, "count", "in Plate.rulings", least=1, most=100)
-        return rulings(curvature_nodes(self.surface.patches()), self.axes, count)
+        return rulings(self.nodes, self.axes, count)
 
     def development(self, grid: tuple[int, int] | None = None) -> Development:
         """Lay the plate flat; see `assoc_hull.surface.plating.development.development`.
@@ -318,21 +413,31 @@ class Plate(ShownAsText):
         Raises
         ------
         BadInputError
-            Another grid.
+            Another grid; a plate of a hull, which has no surface of its own.
         """
-        return attrs.evolve(development(self.surface, grid), name=self.name)
+        return attrs.evolve(development(self._shape(), grid), name=self.name)
+
+    def _shape(self) -> SplineSurface:
+        if self.surface is None:
+            raise BadInputError(
+                f"plate {self.name} of a hull is no surface of its own", "in Plate.development",
+                "cut the surface along parameters: surface.plates(hull.surface(), Seams(u=...))",
+            )  # fmt: skip
+        return self.surface
 
     def __str__(self) -> str:
         """Say in a line what it is."""
-        if self.roll_axis is None:
-            axis = "no roll axis"
-        else:
-            axis = f"roll axis {self.roll_axis:.1f} deg"
-        strain = self.mean_strain if self.mean_strain > 1e-12 else 0.0  # rounding of zero
-        return (
-            f"{self.name}: {self.length:.2f} x {self.breadth:.2f} m, {self.area:.3f} m2, "
-            f"{self.kind}, order {self.order}, {axis}, mean strain {strain:.1e}"
-        )
+        size = f"{self.length:.2f} x {self.breadth:.2f} m, {self.area:.3f} m2"
+        axis = "no roll axis" if self.roll_axis is None else f"roll axis {self.roll_axis:.1f} deg"
+        if self.extent is None:
+            strain = self.mean_strain if self.mean_strain > 1e-12 else 0.0  # rounding of zero
+            about = f"{self.kind}, order {self.order}, {axis}, mean strain {strain:.1e}"
+            return f"{self.name}: {size}, {about}"
+        kind = self.kind or "unresolved"
+        if self.is_doubtful:
+            kind += f" (in doubt on {100.0 * self.doubt:.0f} %)"
+        about = f"{kind}, {axis}, {100.0 * self.contested:.1f} % contested"
+        return f"{self.name} ({self.extent.range}): {size}, {about}"
 
 
 # --------------------------------------------------------------------------------------
@@ -400,30 +505,60 @@ def plate_of(
     """
     areas, nodes = regions.of_surface(number), measured.nodes
     shares = shares_of(areas, nodes, regions.k0, options.flat_bend(breadth))
-    kind, rollable = shares.kind(options.share), shares.rollable(options.share)
-    axis = roll_axis(nodes, measured.axes)
+    kind = shares.kind(options.share)
+    return assemble_plate(
+        nodes, shares, kind, options,
+        name=measured.name, areas=areas, length=float(measured.extents[0]),
+        breadth=measured.breadth, axes=measured.axes, k0=regions.k0, band_breadth=breadth,
+        heating=areas.positive + areas.negative > regions.options.area_tol * areas.total,
+        notes=plate_notes(
+            measured.name, nodes, measured.extents, areas, regions.band, shares, kind
+        ),
+        surface=measured.surface, number=number,
+        lines=sum(
+            each.surface == number and each.kind in _LINES and each.length > _POINT
+            for each in regions.components
+        ),
+    )  # fmt: skip
+
+
+def assemble_plate(
+    nodes: CurvatureNodes,
+    shares: PlateShares,
+    kind: str | None,
+    options: PlateOptions,
+    *,
+    axes: FloatArray,
+    breadth: float,
+    extent: HullExtent | None = None,
+    **known: Any,
+) -> Plate:
+    """Find roll axis, radii, strains and advice from curvature at nodes; the rest is `known`."""
+    axis, rollable = roll_axis(nodes, axes), shares.rollable(options.share)
     single = kind != "flat" and axis.coherence >= COHERENT
-    strain, amount = measured.breadth**2 / 8.0, np.abs(nodes.gauss)
+    strain, amount = breadth**2 / 8.0, np.abs(nodes.gauss)
     whole = float((nodes.area * amount).sum())
-    there = nodes.bent[nodes.area > 0.0]
+    within = nodes.area > 0.0
+    there = nodes.bent[within]
+    doubt = extent.contested + extent.changed if extent else 0.0
     return Plate(
-        name=measured.name, surface=measured.surface, number=number, areas=areas,
-        length=float(measured.extents[0]), breadth=measured.breadth, axes=measured.axes,
-        k0=regions.k0, band_breadth=breadth, shares=shares, kind=kind,
-        order=shares.order(options.share), rollable=rollable,
+        axes=axes, breadth=breadth, shares=shares, kind=kind,
+        order=None if kind is None else shares.order(options.share), rollable=rollable,
         roll_axis=axis.angle_deg if single else None,
         roll_direction=axis.direction if single else None, coherence=axis.coherence,
         least_radius=radius_of(float(there.max())),
         largest_radius=radius_of(0.0 if shares.flat > 0.0 else float(there.min())),
         total_curvature=whole, mean_strain=strain * whole / float(nodes.area.sum()),
-        largest_strain=strain * float(amount.max()),
-        heating=areas.positive + areas.negative > regions.options.area_tol * areas.total,
-        lines=sum(
-            each.surface == number and each.kind in _LINES and each.length > _POINT
-            for each in regions.components
-        ),
-        suggestion=options.suggestions[suggestion_key(kind, rollable, single)],
-        notes=plate_notes(
-            measured.name, nodes, measured.extents, areas, regions.band, shares, kind
-        ),
+        largest_strain=strain * float(amount[within].max()),
+        suggestion=_advice(kind, doubt, rollable, single, options), extent=extent, **known,
     )  # fmt: skip
+
+
+def _advice(
+    kind: str | None, doubt: float, rollable: bool, single: bool, options: PlateOptions
+) -> str:
+    """Give the suggestion, with the doubt where it is large; none for a plate without a class."""
+    if kind is None:
+        return "none: too much of it is unresolved"
+    advice = options.suggestions[suggestion_key(kind, rollable, single)]
+    return f"{advice} (in doubt on {100.0 * doubt:.0f} % of it)" if doubt > COARSE else advice

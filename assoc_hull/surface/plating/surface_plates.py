@@ -1,12 +1,11 @@
-"""Plates of single surfaces: seams that cut them, the search, and the table of what is found.
+"""Plates of single surfaces: seams that cut them, and the search.
 
 `plates` is what is called: surfaces are cut at lines of constant parameter, or not at all.
-The table has one row a plate; names and units of its columns are also those of files.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -14,29 +13,18 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import choice, instance, numbers, shown
-from assoc_hull.display import ShownAsText
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.plating.columns import (
-    PlateColumn,
-    attribute_getter,
-    column_of,
-    plate_at,
-    printed_rows,
-    share_getter,
-)
 from assoc_hull.surface.plating.options import SAGITTA_TOL, SHARE, PlateOptions, plate_options
-from assoc_hull.surface.plating.plate import Plate, PlateDraft, draft_plate, plate_of
-from assoc_hull.surface.plating.plate_class import CAVEAT
+from assoc_hull.surface.plating.plate import PlateDraft, draft_plate, plate_of
+from assoc_hull.surface.plating.plate_table import PlateTable
 from assoc_hull.surface.regions.curvature_regions import curvature_regions
 from assoc_hull.surface.regions.options import BREADTH, MODES, STRAIN_TOL
 from assoc_hull.surface.regions.result import RegionResult
 from assoc_hull.surface.regions.surface_batches import batches_of, given_surfaces, require_area
 
 __all__ = [
-    "COLUMNS",
-    "PlateTable",
     "Seams",
     "cut_at_seams",
     "plates",
@@ -174,125 +162,6 @@ def _place(i: int, j: int, seams: Seams) -> str:
     if not seams.v:
         return f"{i}"
     return f"{i}.{j}" if seams.u else f"{j}"
-
-
-# --------------------------------------------------------------------------------------
-# The table.
-
-COLUMNS: tuple[PlateColumn, ...] = (
-    PlateColumn("name", "", "plate", "s", attribute_getter("name")),
-    PlateColumn("area", "m2", "area", ".3f", attribute_getter("area")),
-    PlateColumn("length", "m", "a", ".2f", attribute_getter("length")),
-    PlateColumn("breadth", "m", "b", ".2f", attribute_getter("breadth")),
-    PlateColumn("k0", "1/m2", "K0", ".3g", attribute_getter("k0")),
-    PlateColumn("convex", "%", "convex", ".1f", share_getter("convex")),
-    PlateColumn("saddle", "%", "saddle", ".1f", share_getter("saddle")),
-    PlateColumn("cylinder", "%", "cyl.", ".1f", share_getter("cylinder")),
-    PlateColumn("flat", "%", "flat", ".1f", share_getter("flat")),
-    PlateColumn("kind", "", "class", "s", attribute_getter("kind")),
-    PlateColumn("order", "", "order", "d", attribute_getter("order")),
-    PlateColumn("roll_axis", "deg", "axis", ".1f", attribute_getter("roll_axis")),
-    PlateColumn("coherence", "", "coh.", ".2f", attribute_getter("coherence")),
-    PlateColumn("least_radius", "m", "R least", ".2f", attribute_getter("least_radius")),
-    PlateColumn("total_curvature", "", "int |K|", ".2e", attribute_getter("total_curvature")),
-    PlateColumn("mean_strain", "", "strain", ".1e", attribute_getter("mean_strain")),
-    PlateColumn("lines", "", "lines", "d", attribute_getter("lines")),
-    PlateColumn("unresolved_area", "m2", "unres.", ".2g", attribute_getter("unresolved_area")),
-    PlateColumn("band_breadth", "m", "", "", attribute_getter("band_breadth")),
-    PlateColumn("unresolved", "%", "", "", share_getter("unresolved")),
-    PlateColumn("developable", "%", "", "", lambda plate: 100.0 * plate.shares.developable),
-    PlateColumn("rollable", "", "", "", attribute_getter("rollable")),
-    PlateColumn("largest_radius", "m", "", "", attribute_getter("largest_radius")),
-    PlateColumn("largest_strain", "", "", "", attribute_getter("largest_strain")),
-    PlateColumn("heating", "", "", "", attribute_getter("heating")),
-    PlateColumn("area_error", "m2", "", "", lambda plate: plate.areas.error_estimate),
-    PlateColumn("suggestion", "", "", "", attribute_getter("suggestion")),
-)
-"""The columns, in the order of files; those with a head are printed."""
-
-
-@attrs.frozen(eq=False, repr=False)
-class PlateTable(ShownAsText):
-    """Plates of a shell, one row each.
-
-    Attributes
-    ----------
-    rows : tuple of Plate
-        The plates.
-    options : PlateOptions
-        By what they were told apart.
-    results : tuple of RegionResult
-        The regions: one result for all, or one for each plate where each has its own band.
-    """
-
-    rows: tuple[Plate, ...]
-    options: PlateOptions
-    results: tuple[RegionResult, ...]
-
-    def __len__(self) -> int:
-        return len(self.rows)
-
-    def __iter__(self) -> Iterator[Plate]:
-        return iter(self.rows)
-
-    def __getitem__(self, which: int | str) -> Plate:
-        """Give a plate by its number from 0, or by its name.
-
-        Raises
-        ------
-        BadInputError, UnknownNameError, WrongTypeError
-            No such number or name; a name that several have.
-        """
-        return plate_at(self.rows, which, "in Plates")
-
-    def result_of(self, number: int) -> RegionResult:
-        """Give the regions that hold a plate, by its number from 0; its `Plate.number` is there."""
-        self[number]
-        return self.results[0] if len(self.results) == 1 else self.results[number]
-
-    @property
-    def computed(self) -> int:
-        """How many patches were computed; the others were taken from earlier plates."""
-        return sum(each.computed for each in self.results)
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What is to be known of regions and plates, each a sentence."""
-        regions = (note for each in self.results for note in each.notes)
-        return (*regions, *(note for plate in self.rows for note in plate.notes))
-
-    def column(self, name: str) -> list[Any]:
-        """Give what all plates have in a column.
-
-        Raises
-        ------
-        UnknownNameError
-            No such column.
-        """
-        return column_of(COLUMNS, self.rows, name)
-
-    def table(self) -> list[dict[str, Any]]:
-        """Give all as plain values, a dictionary for each plate; units are those of `COLUMNS`."""
-        return [{each.name: each.value(plate) for each in COLUMNS} for plate in self.rows]
-
-    def __str__(self) -> str:
-        """Write the table, the advice, and what is to be known."""
-        lines = [*printed_rows(COLUMNS, self.rows), "", *self._advice(), CAVEAT, str(self._band())]
-        return "\n".join([*lines, *self.notes])
-
-    def _advice(self) -> Iterator[str]:
-        """Write the suggestion of each plate, with rulings where no single axis serves."""
-        for plate in self.rows:
-            yield f"{plate.name}: {plate.suggestion}."
-            if plate.rollable and plate.kind != "flat" and plate.roll_axis is None:
-                yield f"  rulings: {plate.rulings(5)}"
-
-    def _band(self) -> str:
-        """Say what counted as no curvature."""
-        if len(self.results) == 1:
-            return f"{self.results[0].band}; strains are those of each plate's own breadth b."
-        tol = self.results[0].band.strain_tol
-        return f"K0 by strain {tol:g} over the breadth b of each plate; strains likewise."
 
 
 # --------------------------------------------------------------------------------------

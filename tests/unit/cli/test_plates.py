@@ -13,8 +13,7 @@ import assoc_hull as ah
 from assoc_hull.cli import main
 from assoc_hull.cli.plates import _UNITS
 from assoc_hull.io.surfaces.surface_file import write_surfaces
-from assoc_hull.io.tables.hull_plates import hull_plates_schema
-from assoc_hull.io.tables.plates import plates_schema
+from assoc_hull.io.tables.plates import hull_plates_schema, plates_schema
 from assoc_hull.io.units import METRES
 from tests.unit.cli.conftest import Json
 

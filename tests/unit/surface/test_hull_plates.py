@@ -57,6 +57,7 @@ def test_areas_of_plates_and_their_regions_are_those_of_the_formula(side: Side) 
     found, k0 = plates_of(side), level_of(side)
     assert len(found) == 12
     for plate in found:
+        assert plate.range is not None
         x = max(plate.range.x[0], X[0]), min(plate.range.x[1], X[1])
         z = max(plate.range.z[0], Z[0]), min(plate.range.z[1], Z[1])
         whole = side.area(x, z)

@@ -10,7 +10,7 @@ from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.export.offset_table import OffsetCells, offsets_xlsx
 from assoc_hull.io.reports import Notebook
 from assoc_hull.io.tables.form_parameters import catalogue_json
-from assoc_hull.io.tables.hull_plates import hull_plates_csv
+from assoc_hull.io.tables.plates import plates_csv
 from assoc_hull.io.tables.spreadsheets import openpyxl_module, workbook_bytes
 from assoc_hull.io.tables.table_blocks import split_blocks
 from assoc_hull.io.tables.table_text import text_of_xlsx
@@ -33,7 +33,7 @@ def test_plates_of_a_hull_as_a_table_csv() -> None:
     x, z = np.mgrid[0:30:2j, 0:3:2j]
     side = SplineSurface.bezier(np.stack([x, 8.0 + 0.0 * x, z], axis=-1), "body")
     assert (
-        str(hull_plates_csv(hull_plates((side,), HullSeams(x=12.0))).splitlines()[0][:30])
+        str(plates_csv(hull_plates((side,), HullSeams(x=12.0))).splitlines()[0][:30])
         == "name,range,area,length,breadth"
     )
 

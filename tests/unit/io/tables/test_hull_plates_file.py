@@ -12,15 +12,16 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.tables.hull_plates import (
-    hull_plates_csv,
-    hull_plates_document,
-    hull_plates_schema,
-    write_hull_plates,
-)
 from assoc_hull.io.tables.json_schema import dumps_schema
-from assoc_hull.surface.plating.hull_plates import COLUMNS, HullPlateTable, hull_plates
+from assoc_hull.io.tables.plates import (
+    hull_plates_schema,
+    plates_csv,
+    plates_document,
+    write_plates,
+)
+from assoc_hull.surface.plating.hull_plates import HullPlateTable, hull_plates
 from assoc_hull.surface.plating.hull_seams import HullSeams
+from assoc_hull.surface.plating.plate_table import HULL_COLUMNS
 from tests.formula_sides import BOWL
 
 VALIDATOR = Draft202012Validator(hull_plates_schema())
@@ -36,7 +37,7 @@ def plates() -> HullPlateTable:
 
 def test_the_document_is_what_the_schema_tells(plates: HullPlateTable) -> None:
     """With what is not there as null: no seam at an end, no other fit, no class."""
-    document = hull_plates_document(plates)
+    document = plates_document(plates)
     VALIDATOR.validate(document)
     VALIDATOR.validate(json.loads(json.dumps(document, allow_nan=False)))
     first = document["plates"][0]
@@ -48,7 +49,7 @@ def test_the_document_is_what_the_schema_tells(plates: HullPlateTable) -> None:
 def test_the_schema_refuses_what_is_no_table(plates: HullPlateTable) -> None:
     """Another class, a number as text, a key that is unknown."""
     for key, value in {"kind": "round", "area": "19.2", "colour": "red", "dk": "nil"}.items():
-        document = hull_plates_document(plates)
+        document = plates_document(plates)
         document["plates"][0][key] = value
         assert not VALIDATOR.is_valid(document)
 
@@ -63,11 +64,11 @@ def test_the_schema_that_ships_is_that_of_the_writer() -> None:
 def test_the_table_has_all_digits(plates: HullPlateTable, tmp_path: Path) -> None:
     """Names, units, a row a plate; what is printed is rounded, what is written is not."""
     path = tmp_path / "plates.csv"
-    write_hull_plates(plates, path)
-    assert path.read_text() == hull_plates_csv(plates)
+    write_plates(plates, path)
+    assert path.read_text() == plates_csv(plates)
     names, units, *rows = csv.reader(path.read_text().splitlines())
-    assert names == [column.name for column in COLUMNS]
-    assert units == [column.unit for column in COLUMNS]
+    assert names == [column.name for column in HULL_COLUMNS]
+    assert units == [column.unit for column in HULL_COLUMNS]
     areas = [float(row[names.index("area")]) for row in rows]
     assert areas == [plate.area for plate in plates]
     assert np.sum(areas) == pytest.approx(plates.regions.total, rel=1e-9)
@@ -77,7 +78,7 @@ def test_the_table_has_all_digits(plates: HullPlateTable, tmp_path: Path) -> Non
 def test_another_ending_is_refused(plates: HullPlateTable, tmp_path: Path) -> None:
     """And nothing is written."""
     with pytest.raises(BadInputError, match="tells no form"):
-        write_hull_plates(plates, tmp_path / "plates.xls")
+        write_plates(plates, tmp_path / "plates.xls")
     assert not list(tmp_path.iterdir())
 
 

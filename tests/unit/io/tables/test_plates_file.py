@@ -23,7 +23,8 @@ from assoc_hull.io.tables.plates import (
     plates_schema,
 )
 from assoc_hull.surface.plating.development import LABEL
-from assoc_hull.surface.plating.surface_plates import COLUMNS, Seams
+from assoc_hull.surface.plating.plate_table import COLUMNS
+from assoc_hull.surface.plating.surface_plates import Seams
 
 VALIDATOR = Draft202012Validator(plates_schema())
 

@@ -19,7 +19,7 @@ from assoc_hull.plot.plates.colour_legend import CURVATURE, STRAIN, shades
 from assoc_hull.plot.plates.curvature_map import curvature_figure
 from assoc_hull.plot.plates.paint_tiles import SIGNS, TINTS
 from assoc_hull.plot.sheet.paper import PAPERS
-from assoc_hull.surface.plating.surface_plates import PlateTable
+from assoc_hull.surface.plating.plate_table import PlateTable
 from assoc_hull.surface.regions.result import RegionResult
 from tests.curved_patches import patch
 
@@ -173,7 +173,7 @@ def test_plates_have_their_class_and_roll_axis(shell: PlateTable, lines_of: Line
     figure = curvature_figure(shell, views=["plan"])
     below = " ".join(words(figure, "label/shares"))
     for plate in shell:
-        assert plate.kind in below
+        assert str(plate.kind) in below
         drawn = lines_of(figure, f"{plate.name}/plan/axis")
         if plate.roll_axis is None:
             assert drawn == []

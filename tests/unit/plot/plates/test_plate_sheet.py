@@ -18,7 +18,7 @@ from assoc_hull.plot.plates.plate_book import plate_sheet, plate_sheets
 from assoc_hull.plot.sheet.paper import PAPERS
 from assoc_hull.plot.sheet.sheet_figure import Sheet
 from assoc_hull.surface.plating.development import LABEL, Development
-from assoc_hull.surface.plating.surface_plates import COLUMNS, PlateTable
+from assoc_hull.surface.plating.plate_table import COLUMNS, PlateTable
 from tests.curved_patches import patch
 
 Boxes = Callable[[Figure], dict[str, FloatArray]]

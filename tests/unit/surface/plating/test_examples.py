@@ -13,16 +13,16 @@ from assoc_hull.geometry.patches.bezier_patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.plating.curvature_nodes import curvature_nodes
 from assoc_hull.surface.plating.development import development, equal_grid, flatten_grid, springs_of
-from assoc_hull.surface.plating.hull_plate import COARSE, CurvatureDoubt, doubled_band, nodes_in
-from assoc_hull.surface.plating.hull_plates import COLUMNS as HULL_PLATE_COLUMNS
+from assoc_hull.surface.plating.hull_plate import CurvatureDoubt, doubled_band, nodes_in
 from assoc_hull.surface.plating.hull_plates import hull_plates
 from assoc_hull.surface.plating.hull_seams import HullSeams, PlateRange
 from assoc_hull.surface.plating.hull_shell import HullShell, girth_of, margin_patches
-from assoc_hull.surface.plating.plate import SLIVER, plate_axes, plate_extents, radius_of
+from assoc_hull.surface.plating.plate import COARSE, SLIVER, plate_axes, plate_extents, radius_of
 from assoc_hull.surface.plating.plate_areas import CutAreas, level_table, levels_about, tallies
 from assoc_hull.surface.plating.plate_class import PlateShares, flat_share, suggestions_with
+from assoc_hull.surface.plating.plate_table import COLUMNS, HULL_COLUMNS
 from assoc_hull.surface.plating.rival_fits import every_second_waterline, rival_curvature
-from assoc_hull.surface.plating.surface_plates import COLUMNS, Seams, cut_at_seams
+from assoc_hull.surface.plating.surface_plates import Seams, cut_at_seams
 
 
 def test_areas_of_what_several_functions_bound_together() -> None:
@@ -174,7 +174,7 @@ def test_the_surface_of_a_hull_made_ready_to_be() -> None:
 
 def test_plates_of_a_hull_as_a_table_names_units() -> None:
     """Plates of a hull as a table: names, units, text."""
-    assert [column.name for column in HULL_PLATE_COLUMNS][:4] == ["name", "range", "area", "length"]
+    assert [column.name for column in HULL_COLUMNS][:4] == ["name", "range", "area", "length"]
 
 
 def test_plates_of_a_hull_cut_at_planes_and_lines() -> None:

@@ -10,7 +10,8 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.plating.plate_class import CAVEAT, KINDS, SUGGESTIONS, PlateShares
-from assoc_hull.surface.plating.surface_plates import COLUMNS, PlateTable, Seams, cut_at_seams
+from assoc_hull.surface.plating.plate_table import COLUMNS, PlateTable
+from assoc_hull.surface.plating.surface_plates import Seams, cut_at_seams
 from tests import bent_plates
 from tests.curved_patches import nets, patch
 
@@ -108,6 +109,7 @@ def test_a_plate_bent_all_ways_has_no_roll_axis() -> None:
     assert fan.coherence < 0.8
     assert fan.roll_axis is None
     assert fan.suggestion == SUGGESTIONS["cone"]
+    assert fan.surface is not None
     assert f"  rulings: {fan.rulings(5)}" in str(ah.surface.plates(fan.surface))
     assert str(fan.rulings(5)).count(" deg R ") == 5
 
