@@ -7,6 +7,7 @@ refused for the other. It writes tables, maps, developments and books of plates.
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,13 +18,11 @@ from assoc_hull.errors import BadInputError
 
 if TYPE_CHECKING:
     from assoc_hull.hull.results import HullPlates, Plates
-    from assoc_hull.io.surfaces.surface_file import ReadSurfaces
     from assoc_hull.surface.plating.hull_seams import HullSeams
 
 __all__ = [
     "add_plates",
     "add_seams",
-    "hull_plates",
     "is_hull",
     "refuse_seams",
     "seams_of",
@@ -112,21 +111,6 @@ def refuse_seams(arguments: argparse.Namespace) -> None:
             raise UsageError(f"--{option} goes with a hull; {arguments.file} holds surfaces")
 
 
-def hull_plates(arguments: argparse.Namespace) -> int:
-    """Find plates of a hull, write what is asked for, and tell of them."""
-    from assoc_hull.hull.sources import open as open_hull
-    from assoc_hull.io.tables.plates import plates_document
-
-    seams = _require_seams(arguments)
-    hull = open_hull(arguments.file)
-    with progress("fitting the surface, finding regions"):
-        found = _found(hull, seams, arguments)
-    saved = _saved(found, arguments)
-    words = [str(found), *(f"written: {each}" for each in saved)]
-    emit(arguments, {**plates_document(found), "saved": saved}, "\n".join(words))
-    return 0
-
-
 def _require_seams(arguments: argparse.Namespace) -> HullSeams:
     """Give the seams; refuse what goes with surfaces only, and a hull that nothing cuts."""
     for name in _OF_SURFACES:
@@ -144,38 +128,24 @@ def _require_seams(arguments: argparse.Namespace) -> HullSeams:
     return seams
 
 
-def _found(hull: Any, seams: HullSeams, arguments: argparse.Namespace) -> HullPlates:
-    """Find the plates, by the options that are given."""
+def _hull_plates(arguments: argparse.Namespace) -> HullPlates:
+    """Find plates of a hull."""
     from assoc_hull.hull.results import plates
+    from assoc_hull.hull.sources import open as open_hull
 
-    names = ("strain_tol", "k0", "share", "sagitta_tol", "breadth")
-    given: dict[str, Any] = {name: getattr(arguments, name) for name in names}
-    options = {name: value for name, value in given.items() if value is not None}
+    seams = _require_seams(arguments)
+    options = _given(arguments, "strain_tol", "k0", "share", "sagitta_tol", "breadth")
     if arguments.one_fit:
         options["others"] = ()
-    return plates(hull, seams, zero=arguments.zero, **options)
+    hull = open_hull(arguments.file)
+    with progress("fitting the surface, finding regions"):
+        return plates(hull, seams, zero=arguments.zero, **options)
 
 
-def _saved(found: HullPlates, arguments: argparse.Namespace) -> list[str]:
-    """Write what was asked for; name the files."""
-    saved: list[Path] = []
-    title = f"Plates of {arguments.file.name}"
-    if arguments.out is not None:
-        with progress(f"writing {arguments.out}"):
-            if arguments.out.suffix == ".pdf":
-                from assoc_hull.plot.plates.hull_map import hull_sheet
-
-                hull_sheet(found, arguments.out, title=title)
-            else:
-                found.save(arguments.out)
-        saved.append(arguments.out)
-    if arguments.picture is not None:
-        from assoc_hull.plot.plates.hull_map import hull_map
-
-        with progress(f"drawing {arguments.picture}"):
-            hull_map(found, arguments.picture, title=title)
-        saved.append(arguments.picture)
-    return [str(each) for each in saved]
+def _given(arguments: argparse.Namespace, *names: str) -> dict[str, Any]:
+    """Give the options that are named at the command line."""
+    found: dict[str, Any] = {name: getattr(arguments, name) for name in names}
+    return {name: value for name, value in found.items() if value is not None}
 
 
 # --------------------------------------------------------------------------------------
@@ -269,18 +239,20 @@ def _breadth(text: str) -> float | str:
 
 
 def _plates(arguments: argparse.Namespace) -> int:
-    from assoc_hull.io.surfaces.surface_file import read_surface_file
+    from assoc_hull.io.tables.plates import plates_document
 
     _check_targets(arguments)
+    found: Plates | HullPlates
+    notes: tuple[str, ...] = ()
     if is_hull(arguments.file):
-        return hull_plates(arguments)
-    refuse_seams(arguments)
-    with progress(f"reading {arguments.file}"):
-        surfaces = read_surface_file(arguments.file, arguments.unit)
-    with progress("finding regions"):
-        found = _plates_found(surfaces, arguments)
-    saved = _plates_saved(found, arguments)
-    _tell(arguments, surfaces, found, saved)
+        found = _hull_plates(arguments)
+    else:
+        found, notes = _surface_plates(arguments)
+    saved = [str(path) for path in _saved(found, arguments)]
+    document = plates_document(found)
+    document["notes"] = [*notes, *document["notes"]]
+    words = [str(found), *notes, *(f"written: {each}" for each in saved)]
+    emit(arguments, {**document, "saved": saved}, "\n".join(words))
     return 0
 
 
@@ -301,43 +273,45 @@ def _check_targets(arguments: argparse.Namespace) -> None:
             what = "another file of this command has this name"
             raise BadInputError(what, f"at {path}", "give another name")
         known.add(path.resolve())
-    if arguments.picture is not None or _is_sheet(arguments):
+    sheet = arguments.out is not None and arguments.out.suffix == ".pdf"
+    if arguments.picture is not None or sheet:
         from assoc_hull.plot.sheet.sheet_figure import require_matplotlib
 
         require_matplotlib()
 
 
-def _is_sheet(arguments: argparse.Namespace) -> bool:
-    return arguments.out is not None and arguments.out.suffix == ".pdf"
-
-
-def _plates_found(surfaces: ReadSurfaces, arguments: argparse.Namespace) -> Plates:
-    """Find the plates, by the options that are given."""
+def _surface_plates(arguments: argparse.Namespace) -> tuple[Plates, tuple[str, ...]]:
+    """Find plates of the surfaces in a file; give notes on the file, too."""
     from assoc_hull.hull.results import plates
+    from assoc_hull.io.surfaces.surface_file import read_surface_file
     from assoc_hull.surface.plating.surface_plates import Seams
 
-    names = ("strain_tol", "k0", "delta", "share", "sagitta_tol", "area_tol")
-    given: dict[str, Any] = {name: getattr(arguments, name) for name in names}
-    options = {name: value for name, value in given.items() if value is not None}
-    if arguments.breadth is not None:
-        options["breadth"] = None if arguments.breadth == _OWN else arguments.breadth
-    seams = Seams(arguments.seams_u, arguments.seams_v)
-    return plates(surfaces, seams or None, arguments.zero, **options)
+    refuse_seams(arguments)
+    with progress(f"reading {arguments.file}"):
+        surfaces = read_surface_file(arguments.file, arguments.unit)
+    options = _given(
+        arguments, "strain_tol", "k0", "delta", "share", "sagitta_tol", "area_tol", "breadth"
+    )
+    if arguments.breadth == _OWN:
+        options["breadth"] = None
+    with progress("finding regions"):
+        seams = Seams(arguments.seams_u, arguments.seams_v)
+        return plates(surfaces, seams or None, arguments.zero, **options), tuple(surfaces.notes)
 
 
-def _plates_saved(found: Plates, arguments: argparse.Namespace) -> list[str]:
-    """Write what was asked for; name the files."""
-    saved: list[Path] = []
+def _saved(found: Plates | HullPlates, arguments: argparse.Namespace) -> Iterator[Path]:
+    """Write what was asked for; name the files. Plates of a hull are not laid flat."""
     if arguments.out is not None:
         with progress(f"writing {arguments.out}"):
-            _write(found, arguments)
-        saved.append(arguments.out)
+            if arguments.out.suffix == ".pdf":
+                _write_sheet(found, arguments)
+            else:
+                found.save(arguments.out)
+        yield arguments.out
     if arguments.picture is not None:
-        from assoc_hull.plot.plates.curvature_map import curvature_figure
-
         with progress(f"drawing {arguments.picture}"):
-            curvature_figure(found, arguments.picture)
-        saved.append(arguments.picture)
+            _draw_map(found, arguments)
+        yield arguments.picture
     if arguments.development is not None:
         from assoc_hull.io.tables.plates import development_csv
         from assoc_hull.io.write_file import write_whole
@@ -345,32 +319,36 @@ def _plates_saved(found: Plates, arguments: argparse.Namespace) -> list[str]:
         with progress("laying plates flat"):
             text = development_csv([plate.development() for plate in found])
         write_whole(arguments.development, text.encode())
-        saved.append(arguments.development)
+        yield arguments.development
     if arguments.surfaces is not None:
         from assoc_hull.io.surfaces.surface_file import write_surfaces
 
         write_surfaces(found.surfaces, arguments.surfaces)
-        saved.append(arguments.surfaces)
-    return [str(each) for each in saved]
+        yield arguments.surfaces
 
 
-def _write(found: Plates, arguments: argparse.Namespace) -> None:
-    """Write the table, or the sheet."""
-    if not _is_sheet(arguments):
-        found.save(arguments.out)
-        return
+def _write_sheet(found: Plates | HullPlates, arguments: argparse.Namespace) -> None:
+    """Write the table with maps as a PDF."""
     from assoc_hull.plot.plates.plate_book import plate_sheet
 
-    plate_sheet(found, arguments.out, developments=arguments.development is not None)
+    flat = arguments.development is not None
+    plate_sheet(found, arguments.out, **_title(arguments), developments=flat)
 
 
-def _tell(
-    arguments: argparse.Namespace, surfaces: ReadSurfaces, found: Plates, saved: list[str]
-) -> None:
-    """Print what was found."""
-    from assoc_hull.io.tables.plates import plates_document
+def _draw_map(found: Plates | HullPlates, arguments: argparse.Namespace) -> None:
+    """Draw the regions: of each plate, or of the hull with its plates."""
+    from assoc_hull.hull.results import HullPlates
 
-    document = plates_document(found)
-    document["notes"] = [*surfaces.notes, *document["notes"]]
-    words = [str(found), *surfaces.notes, *(f"written: {each}" for each in saved)]
-    emit(arguments, {**document, "saved": saved}, "\n".join(words))
+    if isinstance(found, HullPlates):
+        from assoc_hull.plot.plates.hull_map import hull_map
+
+        hull_map(found, arguments.picture, **_title(arguments))
+    else:
+        from assoc_hull.plot.plates.curvature_map import curvature_figure
+
+        curvature_figure(found, arguments.picture)
+
+
+def _title(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Give the title of pictures of a hull; those of surfaces have the usual one."""
+    return {"title": f"Plates of {arguments.file.name}"} if is_hull(arguments.file) else {}

@@ -45,6 +45,7 @@ if TYPE_CHECKING:
 __all__ = [
     "hull_map",
     "hull_sheet",
+    "hull_sheets",
     "map_sheet",
 ]
 
@@ -367,13 +368,17 @@ def hull_sheet(
     instance(found, HullPlateTable, "found", where)
     named = text(title, "title", where)
     form_by_ending(path, None, ("pdf",), {".pdf": "pdf"}, where)
-    sheets = [map_sheet(found, named, paper)]
-    sheets += [_table(rows, named, paper) for rows in _parts(found.rows, _ROWS)]
-    sheets += [
-        _notes(lines, named, paper)
-        for lines in _parts(_wrapped((*found.notes, CAVEAT), paper), _LINES)
+    write_whole(path, pdf_of(hull_sheets(found, named, paper), named))
+
+
+def hull_sheets(found: HullPlateTable, title: str, paper: PaperName = "A3") -> list[Sheet]:
+    """Draw the map, and write the table with advice and the notes, as pages."""
+    notes = _wrapped((*found.notes, CAVEAT), paper)
+    return [
+        map_sheet(found, title, paper),
+        *(_table(rows, title, paper) for rows in _parts(found.rows, _ROWS)),
+        *(_notes(lines, title, paper) for lines in _parts(notes, _LINES)),
     ]
-    write_whole(path, pdf_of(sheets, named))
 
 
 def _parts(items: Sequence[Item], size: int) -> Iterator[Sequence[Item]]:

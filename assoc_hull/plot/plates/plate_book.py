@@ -12,6 +12,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.io.write_file import write_whole
 from assoc_hull.plot.plates.colour_legend import legend_strip
 from assoc_hull.plot.plates.development import development_sheet
+from assoc_hull.plot.plates.hull_map import hull_sheets
 from assoc_hull.plot.plates.plate_layout import SheetArea
 from assoc_hull.plot.plates.plate_panels import draw_plates, regions
 from assoc_hull.plot.plates.plate_picture import picture_of
@@ -19,6 +20,7 @@ from assoc_hull.plot.sheet.labels import wrap_words
 from assoc_hull.plot.sheet.paper import FRAME, LINE, Pen
 from assoc_hull.plot.sheet.report_pages import GREY
 from assoc_hull.plot.sheet.sheet_figure import Path_, Sheet, pdf_of, require_matplotlib
+from assoc_hull.surface.plating.hull_plates import HullPlateTable
 from assoc_hull.surface.plating.plate import Plate
 from assoc_hull.surface.plating.plate_class import CAVEAT
 from assoc_hull.surface.plating.plate_table import PlateColumn, PlateTable
@@ -39,14 +41,14 @@ def plate_sheet(
 
     Parameters
     ----------
-    plates : Plates
-        The plates.
+    plates : Plates or HullPlates
+        The plates; of a hull the pages are those of `assoc_hull.plot.plates.hull_map.hull_sheet`.
     path : path
         Of the file; it ends in .pdf.
     title : str
         Stands at the head of each page.
     developments : bool
-        Whether a page for each plate follows, which shows it laid flat.
+        Whether a page for each plate follows, which shows it laid flat; not of a hull.
 
     Raises
     ------
@@ -88,15 +90,18 @@ def plate_sheets(
     instance(plates, PlateTable, "plates", _WHERE)
     text(title, "title", _WHERE)
     require_matplotlib()
+    # First, as it is refused where plates have no surface of their own.
+    laid_flat = flag(developments, "developments", _WHERE)
+    flat = [development_sheet(plate.development()) for plate in plates] if laid_flat else []
+    if isinstance(plates, HullPlateTable):
+        return hull_sheets(plates, title)
     book = _Book(title)
     book.turn()
     _table(book, plates)
     _words(book, "Advice", [f"{plate.name}: {plate.suggestion}." for plate in plates])
     _words(book, "What the table holds good for", list(_conditions(plates)))
     _maps(book, plates)
-    pages = book.pages
-    if flag(developments, "developments", _WHERE):
-        pages += [development_sheet(plate.development()) for plate in plates]
+    pages = [*book.pages, *flat]
     for number, page in enumerate(pages, 1):
         place = (_RIGHT, 4.5)
         page.text(place, f"{number} / {len(pages)}", across="right", name="label/page")

@@ -89,6 +89,27 @@ def test_plates_are_named_from_aft_and_from_below(bowl: HullPlateTable) -> None:
     assert [plate.area for plate in inside] == [bowl[name].area for name in ("2.2", "3.2")]
 
 
+def test_a_plate_of_a_hull_has_an_extent_and_no_surface(bowl: HullPlateTable) -> None:
+    """What it has with other plates says the same: area of all regions, heat where it is bent."""
+    for plate in bowl:
+        assert plate.extent is not None
+        assert plate.range is plate.extent.range
+        assert plate.surface is None
+        regions = plate.areas
+        assert plate.area == pytest.approx(regions.positive + regions.negative + regions.zero)
+        assert plate.shares.convex == regions.positive_share
+        assert plate.heating == (plate.shares.convex + plate.shares.saddle > 1e-6)
+    assert bowl.surfaces == ()
+
+
+def test_a_plate_of_a_hull_is_not_laid_flat_and_says_what_to_cut(bowl: HullPlateTable) -> None:
+    """Following the advice, the surface is cut along its parameters."""
+    with pytest.raises(BadInputError, match="no surface of its own"):
+        bowl[0].development()
+    cut = ah.surface.plates(BOWL.surface(X, Z, (3, 2), "body"), ah.surface.Seams(u=(0.0,)))
+    assert [plate.development((3, 3)).name for plate in cut] == ["body 1", "body 2"]
+
+
 def test_extents_and_axes_are_those_of_the_plate() -> None:
     """Of a plate of 8.4 by 4.6 m that is bent little: its length runs along the ship."""
     plate = plates_of(Side(8.0, 0.0, -5e-3, 0.0), k0=1e-3)["2.2"]

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError, WrongTypeError
+from assoc_hull.plot.plates.curvature_map import curvature_figure
 from assoc_hull.plot.plates.hull_map import hull_map, hull_sheet
 from assoc_hull.plot.plates.lit_surface import surface_figure
 from assoc_hull.plot.plates.paint_tiles import hull_tiles
+from assoc_hull.plot.plates.plate_book import plate_sheet
 from assoc_hull.surface.plating.hull_plates import HullPlateTable, hull_plates
 from assoc_hull.surface.plating.hull_seams import HullSeams
 from assoc_hull.surface.plating.hull_shell import HullShell
@@ -65,6 +67,23 @@ def test_the_sheet_has_the_map_the_table_and_the_notes(
     assert b"/Count 3" in path.read_bytes()
     with pytest.raises(BadInputError):
         hull_sheet(plates, tmp_path / "plates.png")
+
+
+def test_a_book_of_plates_of_a_hull_is_its_sheet(plates: HullPlateTable, tmp_path: Path) -> None:
+    """The same file, whichever is called; pages of plates laid flat are refused."""
+    one, other = tmp_path / "one.pdf", tmp_path / "other.pdf"
+    hull_sheet(plates, one, title="Shell plates")
+    plate_sheet(plates, other)
+    assert one.read_bytes() == other.read_bytes()
+    with pytest.raises(BadInputError, match="no surface of its own"):
+        plate_sheet(plates, other, developments=True)
+
+
+def test_a_map_plate_by_plate_is_for_surfaces_and_regions(plates: HullPlateTable) -> None:
+    """Plates of a hull are refused; the regions that they were cut from are drawn."""
+    with pytest.raises(WrongTypeError, match="give a RegionResult"):
+        curvature_figure(plates)
+    assert curvature_figure(plates.regions).axes
 
 
 def test_lines_of_tiles_lie_where_a_value_has_its_level() -> None:

@@ -254,6 +254,15 @@ def test_the_table_has_all_columns_once(shell: PlateTable) -> None:
     assert "K0 = 0.00128 1/m2 (strain 0.001 over 2.5 m)" in str(shell)
 
 
+def test_a_plate_of_a_surface_lies_on_no_hull_and_is_not_in_doubt(shell: PlateTable) -> None:
+    """Its shape is given, not fitted."""
+    assert shell.surfaces == tuple(plate.surface for plate in shell)
+    for plate in shell:
+        assert (plate.extent, plate.range, plate.blocks, plate.dk) == (None, None, (), None)
+        assert (plate.doubt, plate.is_doubtful) == (0.0, False)
+    assert shell.area == pytest.approx(shell.results[0].total)
+
+
 def test_lines_are_counted_by_plate(shell: PlateTable) -> None:
     """The loop and the open lines of the wavy plate; none on plates of one region."""
     regions = ah.surface.curvature_regions(surface("P08_wavy_plate"))
