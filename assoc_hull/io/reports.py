@@ -34,14 +34,14 @@ __all__ = [
 
 @attrs.frozen(repr=False)
 class Note(ShownAsText):
-    """One remark on a table.
+    """One remark on what is read: on a table, its lines, or the hull that is made of them.
 
     Attributes
     ----------
     kind : str
-        A short word to filter by, such as "unit", "station zero", "blank" or "outlier".
+        A short word to filter by, such as "unit", "station zero", "blank", "outlier" or "gap".
     where : str
-        Station and waterline as the file names them, or the column, or "the table".
+        Station and waterline as the file names them, the line, the column, or "the table".
     what : str
         A sentence with the numbers.
     amount : float or None
