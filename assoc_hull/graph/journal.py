@@ -419,12 +419,25 @@ class Journal:
 
         What was derived from the tables before is true again: they are as they were.
         """
+        back = self._as_before(keep)
         while len(self.entries) > keep:
             # An entry goes when it has been taken back: one broken off is taken back once more.
             entry = self.entries[-1]
-            entry.undo()
-            entry.restamp()
+            if isinstance(entry, _GrowEntry) or id(entry.column) not in back:
+                entry.undo()
+                entry.restamp()
             self.entries.pop()
+
+    def _as_before(self, keep: int) -> set[int]:
+        """Bring columns back at once that still have the array of before; tell which, by `id`."""
+        last = self.entries[keep:]
+        if any(isinstance(entry, _GrowEntry) for entry in last):
+            return set()  # arrays of before have another length
+        first = dict[int, _ArrayEntry | _PartEntry]()
+        for entry in last:
+            if isinstance(entry, _ArrayEntry | _PartEntry):
+                first.setdefault(id(entry.column), entry)
+        return {key for key, entry in first.items() if entry.column.take_back(entry.was)}
 
     def back(self) -> None:
         """Run the entries backward, keeping them."""

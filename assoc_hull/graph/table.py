@@ -105,6 +105,7 @@ class Column(Generic[S]):
     def _forget(self) -> None:
         """Know of no earlier array."""
         self._spare: NDArray[S] | None = None
+        self._spare_writes = -1
         self._differ: list[NDArray[np.int64]] | None = None
         self._differing = 0
 
@@ -153,9 +154,27 @@ class Column(Generic[S]):
         shown.setflags(write=False)
         # Whatever line an interrupt comes at: the array that is written to is the one that is
         # shown, and what is said to differ from the earlier one is at least what does.
-        self._store, self.data, self._spare = spare, shown, old
+        self._store, self.data, self._spare, self._spare_writes = spare, shown, old, self.writes
         self._differ, self._differing = [], 0
         self._shared = False
+
+    def take_back(self, writes: int) -> bool:
+        """Be again what the column was at an earlier write, if that array is still at hand.
+
+        Nothing is copied, however long the column is: the arrays change places.
+        """
+        if self.writes == writes:
+            return True
+        if self._spare is None or self._spare_writes != writes:
+            return False
+        shown = self._spare[: len(self.data)]
+        shown.setflags(write=False)
+        self._shared = True  # before the array comes that others may have
+        self._store, self.data, self._spare, self._spare_writes, self.writes = (
+            self._spare, shown, self._store, self.writes, writes,
+        )  # fmt: skip
+        _TOUCHED[0] += 1
+        return True
 
     def _references(self) -> int:
         """Give how many references there are to the earlier array.
@@ -427,6 +446,10 @@ class SparseColumn(Column[S]):
         return isinstance(other, SparseColumn) and (
             self._same(other) or other.writes == self.writes
         )
+
+    def take_back(self, writes: int) -> bool:
+        """Tell whether the column is what it was at a write; what is held is small to write."""
+        return self.writes == writes
 
     def _same(self, other: SparseColumn[np.generic]) -> bool:
         return other._store is self._store and other._count == self._count

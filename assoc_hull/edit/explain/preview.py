@@ -328,7 +328,8 @@ def preview(
         plain = _plain(document, trial.asked, settings, name, shapes=shapes, measure=measure)
         return Preview(refused, plain=plain)
     plain = _plain(document, trial.asked, settings, name, shapes=shapes, measure=measure)
-    return attrs.evolve(found[0], plain=plain)
+    # Taken out, it and the columns that it holds go as soon as nobody has it: `look` knows the list.
+    return attrs.evolve(found.pop(), plain=plain)
 
 
 def _plain(
