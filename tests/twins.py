@@ -20,7 +20,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.graph.table import Column, SparseColumn
+from assoc_hull.graph.table import BLOCK, Column, SparseColumn
 from assoc_hull.hull.sources import Examples
 from assoc_hull.shipped import bulk_carrier_207k, series60, wigley
 
@@ -45,6 +45,7 @@ def _column(
         column.writes = writes
         return column
     column._store, column.data, column.writes = store, _frozen(store[:count]), writes
+    column.blocks = np.full(-(-len(store) // BLOCK), writes)
     return column
 
 

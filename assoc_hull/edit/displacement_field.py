@@ -20,6 +20,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.segments import sample
 from assoc_hull.graph.derived import Objects
 from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.table import BLOCK
 from assoc_hull.model.address import address
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort, State
 from assoc_hull.model.program.engine import fields_of
@@ -65,6 +66,9 @@ _IN_PLANE = 1e-9
 
 _LEVEL, _LEVEL_SLOPE = 1e-3, 2e-3
 """Within such a distance, m, and such a slope to it a hull runs on in the plane of a flat."""
+
+_FEW_BLOCKS = 16
+"""Points of a hull of so few blocks of rows are looked at one by one."""
 
 _ALONG = 0.02
 """A spacing seen along x below this part of that in space is none: the lines run along x."""
@@ -175,7 +179,8 @@ class FieldContext:
             return None
         state, planes = self.state, [] if self.across_flats else _flat_planes(self.state)
         return compiled.pulled(
-            state.rows.xyz.data, _movable(state, self.across_flats), place, radius, amount,
+            state.rows.xyz.data, _movable_near(state, self.across_flats, place, radius), place,
+            radius, amount,
             np.array(planes).reshape(-1, 4), self._borders(compiled), flat_fade, _IN_PLANE,
         )  # fmt: skip
 
@@ -220,7 +225,8 @@ class FieldContext:
         )
 
     def _near(self, place: FloatArray, radius: tuple[float, float]) -> IntArray:
-        rows, xyz = _movable(self.state, self.across_flats), self.state.rows.xyz.data
+        rows = _movable_near(self.state, self.across_flats, place, radius)
+        xyz = self.state.rows.xyz.data
         rows = rows[np.abs(xyz[:, 0].take(rows) - place[0]) < radius[0]]
         step = xyz.take(rows, axis=0) - place
         return self._off_planes(rows[(np.abs(step[:, 1:]) < radius[1]).all(axis=1)])
@@ -291,6 +297,50 @@ def _movable(state: HullState, across_flats: bool) -> IntArray:
         return np.flatnonzero(free)
 
     return state.derived(("movable", across_flats), depends_on, find)
+
+
+def _movable_near(
+    state: HullState, across_flats: bool, place: FloatArray, radius: tuple[float, float]
+) -> IntArray:
+    """Give those in blocks of rows that come within a distance of a place, ascending."""
+    rows = _movable(state, across_flats)
+    if state.rows.count <= _FEW_BLOCKS * BLOCK:
+        return rows
+    low, high = _block_boxes(state)
+    reach = np.array([radius[0], radius[1], radius[1]])
+    # By the differences that the points are judged by: none within reach is lost by rounding.
+    near = np.flatnonzero(((low - place < reach) & (high - place > -reach)).all(axis=1))
+    first, last = rows.searchsorted(near * BLOCK), rows.searchsorted((near + 1) * BLOCK)
+    parts = [rows[a:b] for a, b in zip(first.tolist(), last.tolist(), strict=True)]
+    found = np.concatenate([rows[:0], *parts])
+    found.setflags(write=False)
+    return found
+
+
+@attrs.define(eq=False)
+class _LastBoxes:
+    """The least and largest coordinates of blocks of rows, as the places were last looked at."""
+
+    known: tuple[IntArray, FloatArray, FloatArray] | None = None
+
+
+def _block_boxes(state: HullState) -> tuple[FloatArray, FloatArray]:
+    """Give the least and largest coordinates (b, 3), m, of the rows of each block of the table."""
+    places = state.rows.xyz
+    last = state.derived(("boxes of blocks",), (state.rows.count,), _LastBoxes, most=1)
+    xyz, known = places.data, last.known
+    blocks = places.blocks[: -(-len(xyz) // BLOCK)]
+    if known is None or len(known[0]) != len(blocks):
+        begins = np.arange(0, len(xyz), BLOCK)
+        # what is not a number is no place: rows of nothing
+        low, high = np.fmin.reduceat(xyz, begins), np.fmax.reduceat(xyz, begins)
+    else:
+        low, high = known[1].copy(), known[2].copy()
+        for block in np.flatnonzero(known[0] != blocks).tolist():
+            mine = xyz[block * BLOCK : (block + 1) * BLOCK].T.copy()  # numpy likes long rows
+            low[block], high[block] = np.fmin.reduce(mine, axis=1), np.fmax.reduce(mine, axis=1)
+    last.known = blocks, low, high
+    return low, high
 
 
 def _boundary_lines(state: HullState, kind: BoundaryKind) -> IntArray:
@@ -401,7 +451,7 @@ def _flat_borders(state: HullState) -> tuple[list[FloatArray], FloatArray, Float
         ],
     )  # fmt: skip
     # A published curve has a shape.
-    splines = [cast("SplineBatch", shape[curve]) for curve in curves]
+    splines = cast("list[SplineBatch]", list(map(shape.__getitem__, curves)))
 
     def find() -> tuple[list[FloatArray], FloatArray, FloatArray]:
         borders = [sample(each, 4)[1] for each in splines]

@@ -9,7 +9,8 @@ has written, so that nothing as large as the hull is copied. Numbers that a drag
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from operator import attrgetter
+from functools import partial
+from operator import attrgetter, is_not
 from typing import Protocol
 
 import attrs
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.graph.derived import Gate, Objects
+from assoc_hull.graph.journal import each_once
 from assoc_hull.model.index import Index
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.program.engine import runner_of
@@ -111,6 +113,20 @@ class KeptProgram:
         self.index = index
         return self.asked
 
+    def replace(self, one: _AtHand, other: _AtHand) -> bool:
+        """Put other numbers in place of some; tell whether nobody else has these, or can get them.
+
+        Then they may become those that the next edit writes.
+        """
+
+        def act() -> bool:
+            if self.at_hand is not one:
+                return False
+            self.at_hand = other
+            return not one.lent
+
+        return self.gate.alone(act)
+
     def publish(
         self, state: HullState, numbers: LiveNumbers, runs: Sequence[ProgramRun], ridden: IntArray
     ) -> None:
@@ -122,19 +138,13 @@ class KeptProgram:
         found = PublishedProgram(before.program, values)
         freeze(*_arrays(values))
 
-        def replace() -> bool:
-            at, self.spare = self.at_hand, None
-            if at is None or at.found is not before:
-                return False
-            self.at_hand = _AtHand(state, found, at.net, lent=False)
-            return not at.lent
-
-        if not self.gate.alone(replace):
+        at, self.spare = self.at_hand, None
+        if at is None or at.found is not before:
             return
-        # Nobody else has the numbers of before: they become those that the next edit writes.
+        if not self.replace(at, _AtHand(state, found, at.net, lent=False)):
+            return
         spare = before.values
-        for each in _arrays(spare):
-            each.setflags(write=True)
+        _make_writeable(spare)
         for run in runs:
             numbers.runner.restore(spare, values, run)
         spare.base[ridden], spare.anchor_from[ridden] = (
@@ -208,15 +218,102 @@ def _at_hand(document: HasProgram, state: HullState, *, lend: bool) -> _AtHand |
         at.lent = at.lent or lend
         return at
 
-    return kept.gate.alone(known) or _find(document, state)
+    carried = None if lend else partial(_carry, document, state)
+    return kept.gate.alone(known) or (carried and carried()) or _find(document, state)
+
+
+def _net_of(state: HullState, index: Index) -> HullNetwork:
+    """Give the net that a structure was compiled of; the very same while it stays."""
+    return state.derived(
+        ("net",), _structure(state, index), lambda: HullNetwork(state, index), most=1
+    )
+
+
+def _carry(document: HasProgram, state: HullState) -> _AtHand | None:
+    """Bring the numbers at hand to another state of the same net, as after undo: where it differs.
+
+    None if there are none that may be written to. For whoever has the right to write.
+    """
+    kept = document.program
+
+    def take() -> tuple[_AtHand, LiveNumbers] | None:
+        at, spare, kept.spare = kept.at_hand, kept.spare, None
+        if at is None or spare is None or spare.written or spare.published is not at.found:
+            return None
+        return at, spare
+
+    taken = kept.gate.alone(take)
+    if taken is None or taken[0].net is not _net_of(state, document.index_of(state)):
+        return None
+    at, spare = taken
+    differs = _Difference.between(at.found.program, at.state, state)
+    differs.put(spare.values)
+    freeze(*_arrays(spare.values))
+    found = PublishedProgram(at.found.program, spare.values)
+    now = _AtHand(state, found, at.net, lent=False)
+    if kept.replace(at, now):
+        before = at.found.values
+        _make_writeable(before)
+        differs.put(before)
+        kept.spare = LiveNumbers(found, before, spare.runner)
+    return now
+
+
+@attrs.frozen(eq=False)
+class _Difference:
+    """Where a state differs from another one of the same net.
+
+    Attributes
+    ----------
+    rows : (k,) int
+        Points that may lie elsewhere.
+    curves : (l,) int
+        Curves, as the program counts them, with another shape or other meetings.
+    ridden : (m,) int
+        Points that ride from elsewhere.
+    """
+
+    program: Program
+    state: HullState
+    rows: IntArray
+    curves: IntArray
+    ridden: IntArray
+
+    @classmethod
+    def between(cls, program: Program, one: HullState, other: HullState) -> _Difference:
+        """Compare objects by their identity, and places by the notes of writes."""
+        odd = np.zeros(other.curves.count, np.bool_)
+        for name in ("spline", "meets"):
+            pair = (getattr(each.curves, name).data for each in (one, other))
+            odd |= np.fromiter(map(is_not, *pair), np.bool_, len(odd))
+        mine, old = other.rows, one.rows
+        ridden = mine.base.differing(old.base), mine.anchor_from.differing(old.anchor_from)
+        return cls(
+            program, other, mine.xyz.differing(old.xyz), np.flatnonzero(odd[program.number]),
+            each_once(ridden),
+        )  # fmt: skip
+
+    def put(self, values: Values) -> None:
+        """Bring numbers of the one to the other."""
+        program, table = self.program, self.state.rows
+        values.xyz[self.rows] = table.xyz.take(self.rows)
+        values.base[self.ridden] = table.base.take(self.ridden)
+        values.anchor_from[self.ridden] = table.anchor_from.take(self.ridden)
+        _put_curves(values, program, self.state, self.curves.tolist())
+        on_curves = [
+            program.watched[a:b] for a, b in zip(
+                program.watch_start[self.curves].tolist(),
+                program.watch_start[self.curves + 1].tolist(), strict=True,
+            )
+        ]  # fmt: skip
+        watched = np.concatenate([np.zeros(0, np.int64), *on_curves])
+        values.gap[watched] = table.gap[program.watch[watched]]
 
 
 def _find(document: HasProgram, state: HullState) -> _AtHand | None:
     """Compile, where the structure is another than before; and read what has changed."""
     index, kept = document.index_of(state), document.program
-    net = state.derived(
-        ("net",), _structure(state, index), lambda: HullNetwork(state, index), most=1
-    )
+    net = _net_of(state, index)
     program = state.derived(("program",), (net,), lambda: compile_program(state, index), most=1)
     if program is None:
         return None
@@ -302,18 +399,31 @@ def _read(state: HullState, program: Program, last: _Read | None) -> Values:
             i for i, (spline, meets) in enumerate(was)
             if spline is not splines[i] or meets is not met[i]
         ]  # fmt: skip
-    for i in odd:
-        a, b = program.start[i : i + 2].tolist()
-        first, stop = program.meet_start[i : i + 2].tolist()
-        spline, block = splines[i], values.block[9 * a : 9 * b].reshape(9, b - a)
-        block[:3], block[3:6], block[6:] = spline.xyz.T, spline.leave.T, spline.arrive.T
-        values.knot[a:b] = spline.knot
-        values.at[first:stop], values.place[first:stop] = met[i].parameter, met[i].xyz
-        values.segment[first:stop] = spline.knot[1:-1].searchsorted(met[i].parameter, "right")
-    if odd:
-        batch = SplineBatch.join([splines[i] for i in odd])
-        values.folds[odd] = np.bincount(curve_folds(batch).curve, minlength=len(odd))
-        values.lowest[odd] = np.minimum.reduceat(batch.xyz[:, 1], batch.start[:-1])
+    _put_curves(values, program, state, odd)
     values.gap[:] = table.gap[program.watch]
     freeze(*_arrays(values))
     return values
+
+
+def _put_curves(values: Values, program: Program, state: HullState, odd: Sequence[int]) -> None:
+    """Write curves, as the program counts them, and their meetings as they are in the tables."""
+    numbers = [int(program.number[i]) for i in odd]
+    splines, met = [state.spline(each) for each in numbers], state.curves.meets.data
+    for i, number, spline in zip(odd, numbers, splines, strict=True):
+        a, b = program.start[i : i + 2].tolist()
+        first, stop = program.meet_start[i : i + 2].tolist()
+        block, meets = values.block[9 * a : 9 * b].reshape(9, b - a), met[number]
+        block[:3], block[3:6], block[6:] = spline.xyz.T, spline.leave.T, spline.arrive.T
+        values.knot[a:b] = spline.knot
+        values.at[first:stop], values.place[first:stop] = meets.parameter, meets.xyz
+        values.segment[first:stop] = spline.knot[1:-1].searchsorted(meets.parameter, "right")
+    if splines:
+        batch = SplineBatch.join(splines)
+        values.folds[odd] = np.bincount(curve_folds(batch).curve, minlength=len(odd))
+        values.lowest[odd] = np.minimum.reduceat(batch.xyz[:, 1], batch.start[:-1])
+
+
+def _make_writeable(values: Values) -> None:
+    """Let numbers be written to that nobody else has."""
+    for each in _arrays(values):
+        each.setflags(write=True)

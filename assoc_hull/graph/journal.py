@@ -150,14 +150,10 @@ class _ListEntry(Generic[V]):
     was: int
 
     def undo(self) -> None:
-        store = self.column.store
-        for index, value in zip(self.index, self.old, strict=True):
-            store[index] = value
+        self.column.put(self.index, self.old)
 
     def redo(self) -> None:
-        store = self.column.store
-        for index, value in zip(self.index, self.new, strict=True):
-            store[index] = value
+        self.column.put(self.index, self.new)
 
     def restamp(self) -> None:
         self.column.writes = self.was
@@ -423,21 +419,21 @@ class Journal:
         while len(self.entries) > keep:
             # An entry goes when it has been taken back: one broken off is taken back once more.
             entry = self.entries[-1]
-            if isinstance(entry, _GrowEntry) or id(entry.column) not in back:
+            column = getattr(entry, "column", None)
+            if id(column) not in back:
                 entry.undo()
                 entry.restamp()
             self.entries.pop()
 
-    def _as_before(self, keep: int) -> set[int]:
+    def _as_before(self, keep: int) -> list[int]:
         """Bring columns back at once that still have the array of before; tell which, by `id`."""
-        last = self.entries[keep:]
-        if any(isinstance(entry, _GrowEntry) for entry in last):
-            return set()  # arrays of before have another length
-        first = dict[int, _ArrayEntry | _PartEntry]()
-        for entry in last:
-            if isinstance(entry, _ArrayEntry | _PartEntry):
+        first = dict[int, _ArrayEntry | _PartEntry | _ListEntry[object]]()
+        for entry in self.entries[keep:]:
+            if isinstance(entry, _ArrayEntry | _PartEntry | _ListEntry):
                 first.setdefault(id(entry.column), entry)
-        return {key for key, entry in first.items() if entry.column.take_back(entry.was)}
+            else:
+                return []  # arrays of before have another length
+        return [key for key, entry in first.items() if entry.column.take_back(entry.was)]
 
     def back(self) -> None:
         """Run the entries backward, keeping them."""

@@ -34,6 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "BLOCK",
     "AnyColumn",
     "Column",
     "MatrixColumn",
@@ -67,6 +68,9 @@ _SINGLY = 16
 S = TypeVar("S", bound=np.generic, covariant=True)
 V = TypeVar("V")
 
+BLOCK = 512
+"""So many rows of a column share one note of their last write."""
+
 _Row = int | np.integer
 _Several = slice | Sequence[int] | NDArray[np.generic] | EllipsisType | None
 """What names one row; and several: a slice, their numbers, or a mask."""
@@ -81,6 +85,9 @@ class Column(Generic[S]):
     it stands. A journal that takes everything back brings back the number as well. Two columns may
     share their numbers, see `share`: the one that is written to first takes an array of its own.
     That is the one it had before, if nobody else has it any more, and then few rows are copied.
+
+    `blocks` has the number of the last write to each `BLOCK` of rows: what was derived block by
+    block needs a look at those alone whose number is another. It does not come back.
     """
 
     def __init__(self, dtype: type[S] | np.dtype[S], shape: tuple[int, ...], fill: float) -> None:
@@ -89,6 +96,7 @@ class Column(Generic[S]):
         self.fill = fill
         self.data = self._store[:0]
         self.writes = 0
+        self.blocks = _blocks(16, 0)
         self._forget()
 
     def __getstate__(self) -> tuple[NDArray[S], float]:
@@ -99,6 +107,7 @@ class Column(Generic[S]):
         self._shared = False
         # Numbers of writes count in one process: in another they stand for other content.
         self.writes = next(_WRITES)
+        self.blocks = _blocks(len(self._store), self.writes)
         self._forget()
         self._show(len(self._store))
 
@@ -114,6 +123,7 @@ class Column(Generic[S]):
         """The array, to be written to; nobody else has it from now on."""
         self._own()
         self._differ = None  # nobody tells which rows are written
+        self.blocks = _blocks(len(self._store), next(_WRITES))
         _TOUCHED[0] += 1
         return self._store
 
@@ -121,19 +131,19 @@ class Column(Generic[S]):
         """Write to rows, each named once."""
         self._own()
         self._note(rows)
+        self.written()  # first: whoever breaks in leaves no other content under the number
         store = self._store
         if store.ndim > 1 and values.dtype == store.dtype and values.size:
             put_rows(store.reshape(len(store), -1), rows, values)
         else:
             store[rows] = values
-        self.written()
 
     def put_parts(self, part: NDArray[np.int64], values: NDArray[np.generic]) -> None:
         """Write to parts of rows: row r, part p is r * parts + p."""
         self._own()
         self._note(part // self._store.shape[1])
-        put_rows(self._store.reshape(-1, *self._store.shape[2:]), part, values)
         self.written()
+        put_rows(self._store.reshape(-1, *self._store.shape[2:]), part, values)
 
     def _own(self) -> None:
         """Have an array that nobody else has."""
@@ -169,6 +179,10 @@ class Column(Generic[S]):
             return False
         shown = self._spare[: len(self.data)]
         shown.setflags(write=False)
+        if self._differ is None:
+            self.blocks = _blocks(len(self._store), next(_WRITES))
+        else:
+            self._mark(np.concatenate([np.zeros(0, np.int64), *self._differ]))
         self._shared = True  # before the array comes that others may have
         self._store, self.data, self._spare, self._spare_writes, self.writes = (
             self._spare, shown, self._store, self.writes, writes,
@@ -185,7 +199,8 @@ class Column(Generic[S]):
         return sys.getrefcount(self._spare)
 
     def _note(self, rows: NDArray[np.int64]) -> None:
-        """Note rows that are about to differ from the earlier array."""
+        """Note rows that are about to be written, and to differ from the earlier array."""
+        self._mark(rows)
         if self._differ is None:
             return
         self._differing += len(rows)
@@ -193,6 +208,12 @@ class Column(Generic[S]):
             self._forget()
         else:
             self._differ.append(rows)
+
+    def _mark(self, rows: NDArray[np.int64]) -> None:
+        """Note a write to the blocks of rows; columns that share the notes keep theirs."""
+        blocks = self.blocks.copy()
+        blocks[rows // BLOCK] = next(_WRITES)
+        self.blocks = blocks
 
     def share(self, before: object = None) -> Self:
         """Give another column with the same content, as it is now, whatever is written later.
@@ -208,7 +229,7 @@ class Column(Generic[S]):
             return before
         found = object.__new__(type(self))
         found._store, found.fill, found.data = self._store, self.fill, self.data
-        found.writes = self.writes
+        found.writes, found.blocks = self.writes, self.blocks
         found._forget()
         found._shared = self._shared = True
         return found
@@ -222,6 +243,17 @@ class Column(Generic[S]):
             return False
         known = self._differ is not None  # every write has left its number
         return other._store is self._store or (known and other.writes == self.writes)
+
+    def differing(self, other: Column[S]) -> NDArray[np.int64]:
+        """Give rows, ascending, among which are all that differ from those of another column.
+
+        As the notes of writes to blocks have it: the other one is an earlier state of this.
+        """
+        # Arrays that have grown have more blocks than are in use.
+        used = -(-len(self.data) // BLOCK)
+        blocks = np.flatnonzero(self.blocks[:used] != other.blocks[:used])
+        rows = (blocks[:, None] * BLOCK + np.arange(BLOCK)).reshape(-1)
+        return rows[rows < len(self.data)]
 
     def _show(self, count: int) -> None:
         self.data = self._store[:count]
@@ -246,6 +278,7 @@ class Column(Generic[S]):
             self.store[old:count] = self.fill
         self._show(count)
         self.written()
+        self.blocks = _blocks(len(self._store), self.writes)
 
     def parts(self) -> NDArray[S]:
         """Give the first two axes as one: row r, part p is at r * parts + p."""
@@ -276,6 +309,11 @@ class Column(Generic[S]):
 
     def __getitem__(self, rows: _Several | _Part) -> NDArray[S]:
         return self.data[rows]
+
+
+def _blocks(rows: int, writes: int) -> NDArray[np.int64]:
+    """Say of all blocks of rows that they were written."""
+    return np.full(-(-rows // BLOCK), writes, np.int64)
 
 
 @lru_cache
@@ -415,8 +453,8 @@ class SparseColumn(Column[S]):
                 mine = np.concatenate([written[:-1], some[odd]])[turn]
                 order, place = every[turn], None
                 written = np.concatenate([mine, held.values[-1:]])
-        self._store = _Held(order, written, place)
         self.written()
+        self._store = _Held(order, written, place)
 
     def put_parts(self, part: NDArray[np.int64], values: NDArray[np.generic]) -> None:
         """Write to parts of rows: row r, part p is r * parts + p."""
@@ -450,6 +488,17 @@ class SparseColumn(Column[S]):
     def take_back(self, writes: int) -> bool:
         """Tell whether the column is what it was at a write; what is held is small to write."""
         return self.writes == writes
+
+    def differing(self, other: Column[S]) -> NDArray[np.int64]:
+        """Give the rows, ascending, that hold other bits than those of another column."""
+        assert isinstance(other, SparseColumn)
+        if self._same(other):
+            return np.zeros(0, np.int64)
+        rows = self._store.rows
+        if not np.array_equal(rows, other._store.rows):
+            rows = np.union1d(rows, other._store.rows)
+        odd: NDArray[np.bool_] = (_words(self.take(rows)) != _words(other.take(rows))).any(axis=1)
+        return rows[odd]
 
     def _same(self, other: SparseColumn[np.generic]) -> bool:
         return other._store is self._store and other._count == self._count
@@ -580,6 +629,7 @@ class ValueColumn(Generic[V]):
         self.fill = fill
         self.writes = 0
         self._shared = False
+        self._forget()
 
     def __getstate__(self) -> tuple[list[V], V | None]:
         return list(self.data), self.fill
@@ -588,15 +638,69 @@ class ValueColumn(Generic[V]):
         self.data, self.fill = state
         self._shared = False
         self.writes = next(_WRITES)  # as for numbers
+        self._forget()
+
+    def _forget(self) -> None:
+        """Know of no earlier list."""
+        self._spare: list[V] | None = None
+        self._spare_writes = -1
+        self._differ: list[int] | None = None
 
     @property
     def store(self) -> list[V]:
         """The list, to be written to at once; nobody else has it from now on."""
-        if self._shared:
-            self.data, self._shared = self.data.copy(), False
+        self._own()
+        self._differ = None  # nobody tells which rows are written
+        self._written()
+        return self.data
+
+    def put(self, rows: Sequence[int], values: Sequence[V]) -> None:
+        """Write to rows, each named once."""
+        self._own()
+        if self._differ is not None:
+            self._differ += rows
+            if len(self._differ) > len(self.data):
+                self._forget()
+        self._written()
+        data = self.data
+        for row, value in zip(rows, values, strict=True):
+            data[row] = value
+
+    def _own(self) -> None:
+        """Have a list that nobody else has: the earlier one, as for numbers, or a copy."""
+        if not self._shared:
+            return
+        old, spare = self.data, None
+        if self._differ is not None and self._references() == _ALONE:
+            spare = self._spare
+        if spare is None or self._differ is None:
+            spare = old.copy()
+        else:
+            for row in self._differ:
+                spare[row] = old[row]
+        self.data, self._spare, self._spare_writes = spare, old, self.writes
+        self._differ, self._shared = [], False
+
+    def _references(self) -> int:
+        """Give how many references there are to the earlier list, as for numbers."""
+        return sys.getrefcount(self._spare)
+
+    def take_back(self, writes: int) -> bool:
+        """Be again what the column was at an earlier write, as that of numbers."""
+        if self.writes == writes:
+            return True
+        if self._spare is None or self._spare_writes != writes:
+            return False
+        self._shared = True
+        self.data, self._spare, self._spare_writes, self.writes = (
+            self._spare, self.data, self.writes, writes,
+        )  # fmt: skip
+        _TOUCHED[0] += 1
+        return True
+
+    def _written(self) -> None:
         self.writes = next(_WRITES)
         _TOUCHED[0] += 1
-        return self.data
 
     def share(self, before: object = None) -> Self:
         """Give another column with the same content; as that of numbers does."""
@@ -608,6 +712,7 @@ class ValueColumn(Generic[V]):
             return before
         found = object.__new__(type(self))
         found.data, found.fill, found.writes = self.data, self.fill, self.writes
+        found._forget()
         found._shared = self._shared = True
         return found
 

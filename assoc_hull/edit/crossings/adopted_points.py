@@ -403,7 +403,7 @@ def rebase_adopted_points(state: HullState, rows: IntArray, journal: Journal) ->
     """Make the present places of adopted points, and of their neighbours, those they ride from."""
     if not len(rows):
         return
-    anchor, xyz = state.rows.anchor.data.take(rows, axis=0), state.rows.xyz.data
+    anchor, xyz = state.rows.anchor.take(rows), state.rows.xyz.data
     at = np.where((anchor >= 0)[:, :, None], xyz.take(anchor, axis=0, mode="wrap"), 0.0)
     journal.put(state.rows.base, rows, xyz.take(rows, axis=0))
     journal.put(state.rows.anchor_from, rows, at)

@@ -328,7 +328,7 @@ def preview(
         plain = _plain(document, trial.asked, settings, name, shapes=shapes, measure=measure)
         return Preview(refused, plain=plain)
     plain = _plain(document, trial.asked, settings, name, shapes=shapes, measure=measure)
-    # Taken out, it and the columns that it holds go as soon as nobody has it: `look` knows the list.
+    # Taken out of the list that `look` knows, it goes with its columns when nobody has it.
     return attrs.evolve(found.pop(), plain=plain)
 
 

@@ -360,12 +360,11 @@ def _fade(part: float) -> float:
 @jit
 def _nearest(
     x: float, y: float, z: float, border: FloatArray, box_start: IntArray, box: FloatArray,
-    box_of: IntArray, near: NDArray[np.bool_], best: float,
+    chosen: IntArray, count: int, best: float,
 ) -> float:  # fmt: skip
-    """Give the square of the distance from borders that are near, m2; `best` if it is no less."""
-    for q in range(len(box)):
-        if not near[box_of[q]]:
-            continue
+    """Give the square of the distance from the chosen runs of borders, m2; `best` if no less."""
+    for i in range(count):
+        q = chosen[i]
         a = max(box[q, 0, 0] - x, x - box[q, 1, 0], 0.0)
         b = max(box[q, 0, 1] - y, y - box[q, 1, 1], 0.0)
         c = max(box[q, 0, 2] - z, z - box[q, 1, 2], 0.0)
@@ -379,14 +378,12 @@ def _nearest(
 
 @jit
 def distance(
-    place: FloatArray, border: FloatArray, box_start: IntArray, box: FloatArray, box_of: IntArray,
-    border_box: FloatArray, within: float,
-) -> float:  # fmt: skip
+    place: FloatArray, border: FloatArray, box_start: IntArray, box: FloatArray, within: float
+) -> float:
     """Give the distance of a place from the nearest border, m; inf far beyond `within`."""
-    near = np.ones(len(border_box), np.bool_)
-    reach = (within * 1.000001) ** 2
+    chosen, reach = np.arange(len(box)), (within * 1.000001) ** 2
     best = _nearest(
-        place[0], place[1], place[2], border, box_start, box, box_of, near, reach
+        place[0], place[1], place[2], border, box_start, box, chosen, len(box), reach
     )  # fmt: skip
     return sqrt(best) if best < reach else np.inf
 
@@ -394,9 +391,8 @@ def distance(
 @jit
 def pull(
     movable: IntArray, xyz: FloatArray, place: FloatArray, planes: FloatArray, border: FloatArray,
-    box_start: IntArray, box: FloatArray, box_of: IntArray, border_box: FloatArray, amount: float,
-    r_x: float, r_girth: float, flat_fade: float, in_plane: float, rows: IntArray,
-    amounts: FloatArray,
+    box_start: IntArray, box: FloatArray, amount: float, r_x: float, r_girth: float,
+    flat_fade: float, in_plane: float, rows: IntArray, amounts: FloatArray,
 ) -> int:  # fmt: skip
     """Set the points that a pull reaches, and by how much they move, m; give how many there are."""
     count = 0
@@ -426,19 +422,20 @@ def pull(
         return count
     # What lies farther than the fade reaches has no part in it; by rounding nothing is missed.
     reach = (flat_fade * 1.000001) ** 2
-    near = np.ones(len(border_box), np.bool_)
-    for b in range(len(border_box)):
+    chosen, near = np.empty(len(box), np.int64), 0
+    for q in range(len(box)):
+        apart = False
         for k in range(3):
-            if (
-                border_box[b, 0, k] > high[k] + flat_fade
-                or border_box[b, 1, k] < low[k] - flat_fade
-            ):
-                near[b] = False
+            apart = apart or box[q, 0, k] > high[k] + flat_fade
+            apart = apart or box[q, 1, k] < low[k] - flat_fade
+        if not apart:
+            chosen[near] = q
+            near += 1
     kept = 0
     for i in range(count):
         r, mine = rows[i], amounts[i]
         best = _nearest(
-            xyz[r, 0], xyz[r, 1], xyz[r, 2], border, box_start, box, box_of, near, reach
+            xyz[r, 0], xyz[r, 1], xyz[r, 2], border, box_start, box, chosen, near, reach
         )  # fmt: skip
         if best < reach:
             mine = mine * (1.0 - _fade(sqrt(best) / flat_fade))
@@ -460,40 +457,28 @@ class Borders:
     ----------
     place : (n, 3), m
         The places, border by border.
-    start, box, owner : (q + 1,) int, (q, 2, 3) m, (q,) int
-        Where each run begins, its least and largest coordinates, and its border.
-    whole : (b, 2, 3), m
-        The same of each border.
+    start, box : (q + 1,) int, (q, 2, 3) m
+        Where each run begins, its least and largest coordinates.
     """
 
     place: FloatArray
     start: IntArray
     box: FloatArray
-    owner: IntArray
-    whole: FloatArray
 
     @classmethod
     def of(cls, borders: list[FloatArray], run: int = 12) -> Borders:
         """Cut borders (k, 3), m, into runs."""
-        runs = [(b, each[i : i + run]) for b, each in enumerate(borders)
-                for i in range(0, len(each), run)]  # fmt: skip
+        runs = [each[i : i + run] for each in borders for i in range(0, len(each), run)]
         start = np.zeros(len(runs) + 1, np.int64)
-        np.cumsum([len(each) for _, each in runs], out=start[1:])
-        found = cls(
-            np.concatenate([np.zeros((0, 3)), *borders]), start,
-            _boxes([each for _, each in runs]), np.array([b for b, _ in runs], np.int64),
-            _boxes(borders),
-        )  # fmt: skip
+        np.cumsum([len(each) for each in runs], out=start[1:])
+        box = np.array([(each.min(axis=0), each.max(axis=0)) for each in runs]).reshape(-1, 2, 3)
+        found = cls(np.concatenate([np.zeros((0, 3)), *borders]), start, box)
         freeze(*found.arrays())
         return found
 
     def arrays(self) -> tuple[NDArray[np.generic], ...]:
         """Give the arrays in the order in which `pull` takes them."""
-        return self.place, self.start, self.box, self.owner, self.whole
-
-
-def _boxes(runs: list[FloatArray]) -> FloatArray:
-    return np.array([(each.min(axis=0), each.max(axis=0)) for each in runs]).reshape(-1, 2, 3)
+        return self.place, self.start, self.box
 
 
 class CompiledFields:

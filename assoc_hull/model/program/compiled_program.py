@@ -39,6 +39,8 @@ Flags = NDArray[np.int8]
 
 NOTHING, UNSURE, NOT_MADE, MEETINGS, SENSE, GAP, FOLD, BEYOND, LATENT, FEATURE = range(10)
 CIRCLE, FLAT, STRAIGHT = 0, 1, 2
+TO_LOFT, TO_RIDE = 1, 2
+"""What is to be done with a curve: it is made anew, or points of it ride."""
 
 _NUMBERS = (
     Tolerances().coincident, LEAST_COSINE, NO_DIRECTION, CONTACT, FLOOR, RELATIVE, 1e-6, 1.0 - 1e-9,
@@ -64,7 +66,7 @@ def _doubt(told: IntArray, code: int, where: int) -> None:
 
 @jit
 def _mark(
-    row: int, reader: IntArray, rider_start: IntArray, rider: IntArray,
+    row: int, reader: IntArray, rider_start: IntArray, rider: IntArray, rider_on: IntArray,
     changed: Flags, dirty: Flags, due: Flags, moved: IntArray, count: int,
 ) -> int:  # fmt: skip
     """Note that a point has changed; give how many have."""
@@ -74,9 +76,11 @@ def _mark(
         count += 1
     for side in range(2):
         if reader[row, side] >= 0:
-            dirty[reader[row, side]] = 1
+            dirty[reader[row, side]] |= TO_LOFT
     for i in range(rider_start[row], rider_start[row + 1]):
         due[rider[i]] = 1
+        if rider_on[rider[i]] >= 0:
+            dirty[rider_on[rider[i]]] |= TO_RIDE
     return count
 
 
@@ -445,8 +449,8 @@ def _off_feature(
 def _ride(
     c: int, riding_start: IntArray, riding: IntArray, anchor: IntArray, weight: FloatArray,
     xyz: FloatArray, base: FloatArray, anchor_from: FloatArray, reader: IntArray,
-    rider_start: IntArray, rider: IntArray, held: Flags, changed: Flags, dirty: Flags, due: Flags,
-    moved: IntArray, count: int,
+    rider_start: IntArray, rider: IntArray, rider_on: IntArray, held: Flags, changed: Flags,
+    dirty: Flags, due: Flags, moved: IntArray, count: int,
 ) -> int:  # fmt: skip
     """Move the points that ride on a curve; give how many points have changed."""
     for i in range(riding_start[c], riding_start[c + 1]):
@@ -463,7 +467,9 @@ def _ride(
                 xyz[row, k] = value
                 odd = True
         if odd:
-            count = _mark(row, reader, rider_start, rider, changed, dirty, due, moved, count)
+            count = _mark(
+                row, reader, rider_start, rider, rider_on, changed, dirty, due, moved, count
+            )
     return count
 
 
@@ -472,9 +478,9 @@ def run(
     # The structure.
     start: IntArray, row: IntArray, kind: Flags, direction: FloatArray, end_kind: Flags,
     end_vector: FloatArray, own_axis: IntArray, own_offset: FloatArray, reader: IntArray,
-    rider_start: IntArray, rider: IntArray, riding_start: IntArray, riding: IntArray,
-    anchor: IntArray, weight: FloatArray, normal: FloatArray, axis: IntArray, first: IntArray,
-    offset: FloatArray, set_start: IntArray, sets: IntArray, cell_start: IntArray,
+    rider_start: IntArray, rider: IntArray, rider_on: IntArray, riding_start: IntArray,
+    riding: IntArray, anchor: IntArray, weight: FloatArray, normal: FloatArray, axis: IntArray,
+    first: IntArray, offset: FloatArray, set_start: IntArray, sets: IntArray, cell_start: IntArray,
     cell: IntArray, meet_curve: IntArray, meet_row: IntArray, meet_sign: Flags,
     drive_start: IntArray, drive: IntArray, watch: IntArray, watch_a: IntArray, watch_b: IntArray,
     limit: FloatArray, watch_start: IntArray, watched: IntArray, pair_a: IntArray,
@@ -499,20 +505,21 @@ def run(
     count, curves, crossings = told[0], 0, 0
     told[3], told[4] = NOTHING, -1
     for i in range(count):
-        _mark(moved[i], reader, rider_start, rider, changed, dirty, due, moved, i)
+        _mark(moved[i], reader, rider_start, rider, rider_on, changed, dirty, due, moved, i)
     for i in range(count):
         if unsure_row[moved[i]] != 0:
             told[3] = UNSURE
     for c in range(len(start) - 1):
         if told[3] != NOTHING:
             break
-        if dirty[c] == 0 and riding_start[c] == riding_start[c + 1]:
-            continue  # most curves of a large hull: at once
-        count = _ride(
-            c, riding_start, riding, anchor, weight, xyz, base, anchor_from, reader, rider_start,
-            rider, held, changed, dirty, due, moved, count,
-        )  # fmt: skip
         if dirty[c] == 0:
+            continue  # most curves of a large hull: at once
+        if dirty[c] & TO_RIDE:
+            count = _ride(
+                c, riding_start, riding, anchor, weight, xyz, base, anchor_from, reader,
+                rider_start, rider, rider_on, held, changed, dirty, due, moved, count,
+            )  # fmt: skip
+        if not dirty[c] & TO_LOFT:
             continue
         lofted[curves] = c
         curves += 1
@@ -541,7 +548,9 @@ def run(
                     xyz[r, k] = place[m, k]
                     odd = True
             if odd:
-                count = _mark(r, reader, rider_start, rider, changed, dirty, due, moved, count)
+                count = _mark(
+                    r, reader, rider_start, rider, rider_on, changed, dirty, due, moved, count
+                )
     told[0], told[1] = count, curves
     if told[3] == NOTHING:
         told[4] = -1
@@ -602,6 +611,8 @@ def run(
         changed[moved[i]] = 0
         for j in range(rider_start[moved[i]], rider_start[moved[i] + 1]):
             due[rider[j]] = 0
+            if rider_on[rider[j]] >= 0:
+                dirty[rider_on[rider[j]]] = 0
         for side in range(2):
             if reader[moved[i], side] >= 0:
                 dirty[reader[moved[i], side]] = 0
@@ -721,10 +732,14 @@ class CompiledProgram:
         features, points = program.features, len(program.reader)
         most = int(np.diff(program.start).max()) + 2
         limits = np.array([MOST_LEVELS, STEPS, MOST_TRIALS], np.int64)
+        begin, rider_on = program.riding_start, np.full(points, -1)
+        rider_on[program.riding[begin[0] : begin[-1]]] = np.repeat(
+            np.arange(len(begin) - 1), np.diff(begin)
+        )
         self._structure = (
             program.start, program.row, program.kind, program.direction, program.end_kind,
             program.end_vector, program.own_axis, program.own_offset, program.reader,
-            program.rider_start, program.rider, program.riding_start, program.riding,
+            program.rider_start, program.rider, rider_on, program.riding_start, program.riding,
             program.anchor, program.weight, program.normal, program.axis, program.first,
             program.offset, program.set_start, program.sets, program.cell_start, program.cell,
             program.meet_curve, program.meet_row, program.meet_sign,
@@ -754,7 +769,7 @@ class CompiledProgram:
         self._moved[: len(rows)] = rows
         self._told[0] = len(rows)
         if curves is not None:
-            self._dirty[curves] = 1
+            self._dirty[curves] = TO_LOFT
         self._held[held] = 1
         _run(
             *self._structure, *_columns(values), read_only(before.folds),
