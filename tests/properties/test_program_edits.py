@@ -18,6 +18,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
+from assoc_hull.edit import published_program as published_program_module
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.modification import Pending
 from assoc_hull.edit.program_edit import ProgramEdit
@@ -25,7 +26,8 @@ from assoc_hull.edit.published_program import published_program
 from assoc_hull.edit.step import Step
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.kinds import Role, Sort
-from assoc_hull.model.program.structure import Values
+from assoc_hull.model.program.structure import Program, Values
+from assoc_hull.model.tables import HullState
 from tests.conftest import Shipped
 from tests.long_forms import LONG, draws
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
@@ -113,12 +115,17 @@ def assert_numbers_are_those_of_the_tables(hull: ah.Hull) -> None:
     kept = published_program(hull.document)
     if kept is None:
         return
-    anew = published_program(ah.Hull(hull.document.state.snapshot()).document)
+    assert_read_of(hull.document.state, kept.program, kept.values)
+
+
+def assert_read_of(state: HullState, program: Program, values: Values) -> None:
+    """Numbers are those of the tables; a segment may be the one behind, at a knot."""
+    anew = published_program(ah.Hull(state.snapshot()).document)
     assert anew is not None
-    at = anew.program.start[anew.program.meet_curve] + anew.values.segment
+    at = program.start[program.meet_curve] + anew.values.segment
     for name in (each.name for each in attrs.fields(Values)):
-        one, two = getattr(kept.values, name), getattr(anew.values, name)
-        if name == "segment":  # at a knot that before or behind it will do
+        one, two = getattr(values, name), getattr(anew.values, name)
+        if name == "segment":
             assert (anew.values.knot[at[one != two]] == anew.values.at[one != two]).all()
         else:
             assert one.tobytes() == two.tobytes(), name
@@ -242,6 +249,71 @@ def test_numbers_read_after_a_pull_and_its_undo_are_those_of_the_tables(shipped:
     assert_numbers_are_those_of_the_tables(hull)
     hull.undo()
     assert_numbers_are_those_of_the_tables(hull)
+
+
+ACTS = st.lists(
+    st.tuples(
+        st.sampled_from(["move", "pull", "undo", "redo", "preview", "full", "drag"]),
+        st.integers(0, 2**20), st.floats(-0.01, 0.01),
+    ),
+    min_size=8, max_size=24,
+)  # fmt: skip
+
+
+FIRST = [("pull", 1, 1e-3), ("pull", 1, -1e-3), ("undo", 0, 0.0), ("pull", 1, 2e-3)]
+
+
+@settings(max_examples=draws(10), deadline=None)
+@given(acts=ACTS)
+def test_numbers_carried_on_after_undo_are_those_of_the_tables(
+    acts: list[tuple[str, int, float]], shipped: Shipped
+) -> None:
+    """Undo, redo and edits of the full way, between edits by the program, previews and drags."""
+    hull, carried = shipped("series60_70"), 0
+    free = [key for key, point in hull.points.items() if point.free == ("y",)]
+    points = free[::40] + _watched_points(hull, free)[:8]
+    carry = published_program_module._carry
+
+    def looked_at(document: Document, state: HullState) -> object:
+        nonlocal carried
+        found = carry(document, state)
+        if found is not None:
+            carried += 1
+            spare = document.program.spare
+            numbers = [found.found.values, *([] if spare is None else [spare.values])]
+            for values in numbers:
+                assert_read_of(state, found.found.program, values)
+        return found
+
+    with (
+        by_program(Count(), always=True),
+        mock.patch.object(published_program_module, "_carry", looked_at),
+    ):
+        # The first two edits bring numbers that may be written to.
+        for act, number, size in [*FIRST, *acts]:
+            point = points[number % len(points)]
+            with contextlib.suppress(ah.errors.AssocHullError):
+                _one_act(hull, act, point, size)
+    assert carried >= 1
+    assert hull.verify() == ()
+
+
+def _one_act(hull: ah.Hull, act: str, point: str, size: float) -> None:
+    if act in ("undo", "redo"):
+        if len(hull.history if act == "undo" else hull.document.undone):
+            getattr(hull, act)()
+    elif act == "preview":
+        hull.preview([{"op": "pull", "point": point, "d": size, "radius": [20.0, 8.0]}])
+    elif act == "drag":
+        with hull.drag(point, radius=(20.0, 8.0)) as drag:
+            drag.to(d=size)
+            drag.commit("drag")
+    else:
+        with by_program(Count(), always=act != "full"), hull.edit(act) as edit:
+            if act == "move":
+                edit.move(point, y=hull.points[point].y + size)
+            else:
+                edit.pull(point, size, (20.0, 8.0))
 
 
 @pytest.mark.parametrize("always", [True, False], ids=["by the program", "the full way"])

@@ -14,8 +14,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.journal import Journal, PickedRows
 from assoc_hull.graph.table import (
+    BLOCK,
     Column,
     NumberColumn,
     Table,
@@ -23,6 +24,7 @@ from assoc_hull.graph.table import (
     VectorColumn,
     numbers,
     values,
+    vectors,
 )
 
 ROWS = 12
@@ -78,6 +80,149 @@ def test_an_array_that_nobody_has_is_used_again() -> None:
         published = column.share()
     assert len(stores) <= 3
     assert published.data.tolist() == column.data.tolist()
+
+
+@attrs.frozen(eq=False)
+class Mixed(Table):
+    """A table of more than one block of rows, with a column of each kind."""
+
+    size: NumberColumn[np.float64] = numbers(np.float64)
+    place: VectorColumn[np.float64] = vectors(np.float64, 2)
+    few: NumberColumn[np.float64] = numbers(np.float64, np.nan, sparse=True)
+    name: ValueColumn[str] = values("")
+
+
+MANY = 3 * BLOCK + 5
+JOURNALLED = st.one_of(
+    st.tuples(st.sampled_from(["size", "place", "parts", "few", "name"]), st.integers(0, MANY - 1)),
+    st.tuples(st.sampled_from(["share", "drop", "mark", "undo", "publish"]), st.just(0)),
+    st.tuples(st.just("grow"), st.integers(1, 3)),
+)
+
+
+def _held_content(table: Mixed) -> dict[str, list[object]]:
+    return {name: np.asarray(each.data).tolist() for name, each in table.columns.items()}
+
+
+@given(acts=st.lists(JOURNALLED, max_size=40))
+def test_what_is_taken_back_is_what_it_was_whoever_shares_it(acts: list[tuple[str, int]]) -> None:
+    """Arrays change places in place of copies: contents, numbers of writes and notes stay true."""
+    table, journal, marks = Mixed(), Journal(), [(0, 0)]
+    journal.grow(table, MANY)
+    marks = [(1, table.count)]
+    held, published = list[tuple[Mixed, dict[str, list[object]]]](), table.share()
+    known = dict[int, list[object]]()
+    contents = [_held_content(table)]
+    for number, (act, row) in enumerate(acts, 1):
+        if act == "size" or act == "few":
+            journal.put(table.columns[act], [row], [float(number)])  # type: ignore[arg-type]
+        elif act == "place":
+            journal.put(table.place, [row], [[float(number), 0.5]])
+        elif act == "parts":
+            put = PickedRows(np.array([float(number)]))
+            journal.put_parts(table.place, np.array([2 * row + 1]), put)
+        elif act == "name":
+            journal.set(table.name, [row], [f"{number}"])
+        elif act == "grow":
+            journal.grow(table, row)
+        elif act == "mark":
+            marks.append((len(journal.entries), table.count))
+            contents.append(_held_content(table))
+        elif act == "undo":
+            journal.undo(keep=marks.pop()[0] if len(marks) > 1 else 1)
+            back = contents.pop() if len(contents) > 1 else contents[0]
+            assert str(_held_content(table)) == str(back)
+        elif act == "share":
+            held.append((table.share(), _held_content(table)))
+        elif act == "publish":
+            published = table.share(published)
+            assert str(_held_content(published)) == str(_held_content(table))
+        else:
+            held.clear()
+        now = _held_content(table)
+        for name, column in table.columns.items():
+            assert str(known.setdefault(column.writes, now[name])) == str(now[name])
+        for other, as_it_was in held:
+            assert str(_held_content(other)) == str(as_it_was)
+            if other.count == table.count:
+                for name in ("size", "place", "few"):
+                    mine, theirs = table.columns[name], other.columns[name]
+                    pairs = zip(now[name], as_it_was[name], strict=True)
+                    odd = np.array([str(a) != str(b) for a, b in pairs])
+                    assert np.isin(np.flatnonzero(odd), mine.differing(theirs)).all()  # type: ignore[union-attr,arg-type]
+
+
+def test_what_is_tried_and_taken_back_is_not_copied() -> None:
+    """As by a preview, whose result shares the tables: the array of before comes back."""
+    table, journal = Mixed(), Journal()
+    journal.grow(table, MANY)
+    published = table.share()
+    for _ in range(3):
+        before = table.size.data.ctypes.data, id(table.name.data)
+        journal.put(table.size, [3], [1.0])
+        journal.set(table.name, [3], ["tried"])
+        result = table.share()
+        journal.undo(keep=1)
+        assert (table.size.data.ctypes.data, id(table.name.data)) == before
+        assert table.share(published) is published
+        assert result.size[3] == 1.0
+        assert result.name[3] == "tried"
+
+
+@pytest.mark.parametrize("what", ["size", "name", "few"])
+def test_an_interrupt_at_any_line_of_a_write_or_of_taking_it_back_is_taken_back_once_more(
+    what: str,
+) -> None:
+    """What was broken off is undone again, and then all is as it was, whoever shares it."""
+    met, line = 0, 0
+    traced = ("table.py", "journal.py")
+    while True:
+        table, journal = Mixed(), Journal()
+        journal.grow(table, 8)
+        held = [table.share()]
+        for number in range(2):
+            journal.put(table.size, [number], [1.0])
+            journal.put(table.few, [number], [1.0])
+            journal.set(table.name, [number], ["a"])
+            held.append(table.share())
+        before, keep, seen = _held_content(table), len(journal.entries), 0
+
+        def broken(frame: FrameType, event: str, _: object, at: int = line) -> Any:
+            nonlocal seen
+            if not frame.f_code.co_filename.endswith(traced):
+                return None
+            if event == "line":
+                seen += 1
+                if seen == at + 1:
+                    raise KeyboardInterrupt
+            return broken
+
+        was = sys.gettrace()
+        sys.settrace(broken)
+        try:
+            if what == "name":
+                journal.set(table.name, [1], ["b"])
+                journal.set(table.name, [2], ["c"])
+            else:
+                journal.put(table.columns[what], [1], [2.0])  # type: ignore[arg-type]
+                journal.put(table.columns[what], [2], [3.0])  # type: ignore[arg-type]
+            journal.undo(keep=keep)
+        except KeyboardInterrupt:
+            met += 1
+        finally:
+            sys.settrace(was)
+        whole = seen <= line
+        journal.undo(keep=keep)
+        assert str(_held_content(table)) == str(before), line
+        assert str(_held_content(held[-1])) == str(before), line
+        journal.put(table.size, [5], [9.0])
+        journal.set(table.name, [5], ["z"])
+        assert table.size[5] == 9.0
+        assert str(_held_content(held[-1])) == str(before), line
+        if whole:
+            break
+        line += 1
+    assert met > 20
 
 
 @attrs.frozen(eq=False)

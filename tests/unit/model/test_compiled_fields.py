@@ -109,6 +109,35 @@ def test_a_pull_is_that_of_numpy(name: str) -> None:
     assert felt > 100
 
 
+@pytest.mark.parametrize("compiled", [True, False], ids=["compiled", "numpy"])
+def test_points_in_reach_are_found_by_blocks_as_one_by_one(compiled: bool) -> None:
+    """On a hull that is edited, tried and taken back in between: the blocks follow."""
+    hull, draw, felt = ah.examples.series60(), np.random.default_rng(9), 0
+    for turn in range(12):
+        state = hull.state
+        numbers = numbers_of(hull) if compiled else None
+        rows = draw.choice(state.live("rows"), 12).tolist()
+        for row in rows:
+            radius = float(draw.uniform(1.0, 40.0)), float(draw.uniform(1.0, 12.0))
+            shifts = []
+            for few in (0, 1000):
+                with mock.patch("assoc_hull.edit.displacement_field._FEW_BLOCKS", few):
+                    found = field(hull, row, radius, turn % 2 == 0, numbers)
+                    if not isinstance(found, str):
+                        shifts.append(found.shift(FieldContext(state, turn % 2 == 0, numbers), 0.5))
+            for part in ("rows", "delta", "left") if shifts else ():
+                assert getattr(shifts[0], part).tobytes() == getattr(shifts[1], part).tobytes()
+            felt += len(shifts[0].rows) if shifts else 0
+        asked = [{"op": "pull", "point": "WL 1.08 x ST 4", "d": 0.01, "radius": [40.0, 16.0]}]
+        hull.preview(asked)
+        if turn % 3 == 2:
+            hull.undo()
+        else:
+            with hull.edit("pull") as edit:
+                edit.pull("WL 1.08 x ST 4", 4e-3 * (-1) ** turn, (40.0, 16.0))
+    assert felt > 100
+
+
 def test_what_is_not_known_is_left_to_numpy() -> None:
     """A curve whose ends tell nothing of its course, as that of a closed one."""
     hull = ah.examples.wigley()

@@ -1,7 +1,9 @@
 """A preview tells what the edit then does: lines, movements, causes, fingerprint."""
 
 import copy
+import gc
 import pickle
+import weakref
 
 import numpy as np
 import pytest
@@ -204,3 +206,19 @@ def test_hulls_and_previews_go_to_other_processes() -> None:
         assert other.points["WL 3.75 x ST 9"].y == 3.85
         assert other.verify() == ()
     assert hull.points["WL 3.75 x ST 9"].y == 3.92
+
+
+def test_a_preview_that_nobody_has_leaves_the_tables_to_the_next_edit(hull: ah.Hull) -> None:
+    """Else what it shares would be copied by whoever writes next, whole columns at a time."""
+    point = next(key for key, each in hull.points.items() if each.free == ("y",))
+    asked = [{"op": "move", "point": point, "y": hull.points[point].y + 1e-3}]
+    gc.disable()
+    try:
+        seen = hull.preview(asked)
+        assert not seen.refused
+        assert seen._seen is not None
+        states = weakref.ref(seen._seen.after)
+        del seen
+        assert states() is None
+    finally:
+        gc.enable()
