@@ -37,7 +37,7 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.run_update import distinct
 from assoc_hull.model.change import change_of
 from assoc_hull.model.index import Index, build_index, index_columns
-from assoc_hull.model.tables import HasState, HullState, copy_into, copy_state
+from assoc_hull.model.tables import HasState, HullState, copy_into
 
 __all__ = ["SIGNED", "STOPPED", "Changed", "Document", "HasDocument", "Keeper", "Label",
            "end_if_stopped"]  # fmt: skip
@@ -583,9 +583,9 @@ class Document:
         """Bring tables and history back to what they were, if what is done meanwhile fails.
 
         `turned` are the steps that have been run by then, or half run; `copy` is for steps that
-        cannot be run from the middle, as changes cannot: the tables are copied.
+        cannot be run from the middle, as changes cannot: the tables as they were are kept.
         """
-        was = copy_state(self.state) if copy else None
+        was = self.state.as_written() if copy else None
         before = list(self.history), list(self.undone)
         try:
             yield

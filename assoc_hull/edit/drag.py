@@ -37,7 +37,7 @@ from assoc_hull.edit.recording import Settings
 from assoc_hull.edit.session import Edit, refusal_of
 from assoc_hull.edit.shapes import HullShapes, chosen_curves, joined, section_areas
 from assoc_hull.edit.step import EditReport, Step
-from assoc_hull.edit.write_lock import WriteLock
+from assoc_hull.edit.write_lock import PATIENCE, WriteLock
 from assoc_hull.errors import AssocHullError, BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal
@@ -144,6 +144,14 @@ class Live:
         return self._before.changes(self.curves, self.spline)
 
 
+def _moved(rows: IntArray, watched: IntArray, before: FloatArray, now: FloatArray) -> IntArray:
+    """Add the watched crossings that have moved with their curves to points that changed."""
+    # The run measures them anyway; nothing depends on them, so it does not count them.
+    watched = watched[(now[watched] != before[watched]).any(axis=1)]
+    found: IntArray = np.sort(np.concatenate([rows, watched]))
+    return found
+
+
 def _come_and_gone(step: Step, state: HullState) -> tuple[IntArray, IntArray]:
     """Give the points that a step has made, and those that it has taken away."""
     assert isinstance(step.journal, Journal), "a step that has just been made holds its writes"
@@ -171,19 +179,24 @@ class _QuickWay:
         published = published_program(document, state)
         if published is None:
             return None
-        numbers = LiveNumbers.of(published)
+        numbers = document.program.numbers_of(published)
+        found = None
         try:
             if how == "move":
                 # An adopted point becomes a placed one: another structure.
-                adopted = state.rows.sort[row] == Sort.ADOPTED
-                freedom = PointFreedom.of(state, row)
-                return None if adopted else cls(numbers, state, row, freedom, None, None)
-            mine = published.program, published.values
-            pull = pull_field(state, row, 1.0, radius, across_flats=across_flats, numbers=mine)
+                if state.rows.sort[row] != Sort.ADOPTED:
+                    found = cls(numbers, state, row, PointFreedom.of(state, row), None, None)
+            else:
+                mine = published.program, published.values
+                pull = pull_field(state, row, 1.0, radius, across_flats=across_flats, numbers=mine)
+                if not curves_to_hold(state, row):
+                    ground = FieldContext(state, across_flats, mine)
+                    found = cls(numbers, state, row, None, pull, ground)
         except AssocHullError:
-            return None  # each step says why
-        ground = FieldContext(state, across_flats, mine)
-        return None if curves_to_hold(state, row) else cls(numbers, state, row, None, pull, ground)
+            found = None  # each step says why
+        if found is None:
+            document.program.give_back(numbers)
+        return found
 
     def written(self, asked: dict[str, float]) -> tuple[IntArray, FloatArray] | None:
         """Give the points that an edit writes, and their places; None if it is refused or large."""
@@ -301,7 +314,7 @@ class Drag:
         state = document.state.published()
         row, _ = GivenObjects(state).point(point)
         self._name = address(state, row)
-        self._asked = {"radius": radius, "across_flats": across_flats}
+        self._radius, self._across_flats = radius, across_flats
         self.start: FloatArray = state.rows.xyz[row].copy()
         computed = state.rows.sort[row] == Sort.CROSSING
         computed &= state.rows.role[row] != Role.SHARED
@@ -309,11 +322,11 @@ class Drag:
         normal = normals_at(state, np.array([row]))[0]
         self.normal: FloatArray | None = normal.copy() if (normal != 0.0).any() else None
         freeze(self.start, *([] if self.normal is None else [self.normal]))
-        self._row, self._quick = row, _QuickWay.of(document, state, row, how, radius, across_flats)
+        self._row, self._number, self._last = row, state.number, dict[str, float]()
+        self._quick = self._quick_way(state)
+        self._given_back = False
         self.radius = self._felt(state, radius, across_flats)
         self._published = HullShapes.of(state)
-        self._number, self._last = state.number, dict[str, float]()
-        self._ground = state
         self._over, self._stop_asked, self._turn = False, False, WriteLock()
 
     def _felt(
@@ -340,6 +353,28 @@ class Drag:
         trace: TracebackType | None,
     ) -> None:
         self._over = True
+        # Where another thread is in the middle of a step, that one keeps what it works on.
+        with contextlib.suppress(AssocHullError), self._one_at_a_time("the end", wait=0.0):
+            self._give_back()
+
+    def _give_back(self) -> None:
+        """Let go of the numbers and of the tables of the published hull: an edit may use them."""
+        quick, self._quick = self._quick, None
+        if quick is not None:
+            self._given_back = True
+            self._document.program.give_back(quick.numbers)
+
+    def _quick_way(self, state: HullState) -> _QuickWay | None:
+        """Give what makes steps quick, of the published hull."""
+        return _QuickWay.of(
+            self._document, state, self._row, self._how, self._radius, self._across_flats
+        )
+
+    def _take_again(self) -> None:
+        """Begin anew on the hull, which is as it was; after a commit that was refused."""
+        state, self._given_back = self._document.state.published(), False
+        if state.number == self._number:
+            self._quick = self._quick_way(state)
 
     def to(
         self,
@@ -380,17 +415,19 @@ class Drag:
             return attrs.evolve(found, seconds=time.perf_counter() - begin)
 
     @contextlib.contextmanager
-    def _one_at_a_time(self, act: str) -> Iterator[None]:
+    def _one_at_a_time(self, act: str, wait: float = PATIENCE) -> Iterator[None]:
         """Let another thread wait until this one's step is over: they work on the same numbers."""
         holder, where = object(), f"in {act} of the drag of {self._name}"
         try:
-            self._turn.take(holder, f"the drag of {self._name}", where=where)
+            self._turn.take(holder, f"the drag of {self._name}", where=where, wait=wait)
             yield
         finally:
             self._turn.give_back(holder)
 
     def _run(self) -> Live | None:
         """Run the program; None where that does not answer for the whole edit."""
+        if self._given_back:
+            self._take_again()
         if self._quick is None or self._document.lock.held:
             return None
         asked = self._last
@@ -410,18 +447,12 @@ class Drag:
         number = program.number[run.curves]
         order = np.argsort(number)
         curves, asked = number[order], dict(self._last)
-        rows = self._moved(run.rows, program.watch[run.watched], numbers.values.xyz)
+        before = numbers.published.values.xyz
+        rows = _moved(run.rows, program.watch[run.watched], before, numbers.values.xyz)
         spline, xyz = numbers.splines(run.curves[order]), numbers.values.xyz[rows]
         freeze(curves, rows, xyz)
         return Live((), curves, spline, (), (), rows, xyz, len(curves), 0.0, self._published,
                     lambda: self._report_of(asked))  # fmt: skip
-
-    def _moved(self, rows: IntArray, watched: IntArray, xyz: FloatArray) -> IntArray:
-        """Add the watched crossings that have moved with their curves to points that changed."""
-        # The run measures them anyway; nothing depends on them, so it does not count them.
-        watched = watched[(xyz[watched] != self._ground.rows.xyz[watched]).any(axis=1)]
-        found: IntArray = np.sort(np.concatenate([rows, watched]))
-        return found
 
     def _report_of(self, asked: dict[str, float]) -> EditReport | None:
         """Give the report of an edit that was tried, if the hull is as it was then."""
@@ -464,6 +495,7 @@ class Drag:
                 what, remedy = "nothing was asked for", "call to before"
                 raise BadInputError(what, f"in the drag of {self._name}", remedy)
             edit = Edit(self._document, name, self._settings)
+            self._give_back()
             with edit:
                 # Another may have come first while this one waited for the hull.
                 self._require_its_ground("commit")
@@ -533,7 +565,7 @@ class Drag:
     def _ask(self, edit: Edit, asked: dict[str, float]) -> None:
         """Ask an edit for what a `to` asked for."""
         if self._how == "pull":
-            edit.pull(self._name, **asked, **self._asked)  # type: ignore[arg-type]
+            edit.pull(self._name, asked["d"], self._radius, across_flats=self._across_flats)
         else:
             edit.move(self._name, lead=False, **asked)
 
@@ -552,7 +584,7 @@ class Drag:
         born, gone = _come_and_gone(step, state)
         known = rows[~np.isin(rows, born)]
         watched = np.setdiff1d(watched_on(state, curves), np.concatenate([known, born]))
-        known = self._moved(known, watched, state.rows.xyz.data)
+        known = _moved(known, watched, state.published().rows.xyz.data, state.rows.xyz.data)
         key = state.rows.key.data
         spline = joined([state.spline(curve) for curve in curves.tolist()])
         xyz = state.rows.xyz[known]

@@ -81,13 +81,13 @@ class LiveNumbers:
 class _AtHand:
     """A published state, what runs on it, and the net as it was when that was compiled.
 
-    `lent`: somebody else may look at the numbers, so they stay as they are.
+    `lent`: so many others may look at the numbers, which stay as they are until none does.
     """
 
     state: HullState
     found: PublishedProgram
     net: HullNetwork
-    lent: bool
+    lent: int
 
 
 @attrs.define(eq=False)
@@ -107,6 +107,31 @@ class KeptProgram:
         # In another process, or in a copy, it is made anew.
         return KeptProgram, ()
 
+    def numbers_of(self, published: PublishedProgram) -> LiveNumbers:
+        """Give numbers to be tried by somebody who has the published ones, until `give_back`."""
+
+        def take() -> LiveNumbers | None:
+            spare = self.spare
+            if spare is None or spare.written or spare.published is not published:
+                return None
+            self.spare = None
+            return spare
+
+        return self.gate.alone(take) or LiveNumbers.of(published)
+
+    def give_back(self, numbers: LiveNumbers) -> None:
+        """Take numbers back of somebody who looks at them and at the published ones no more."""
+
+        def act() -> None:
+            at = self.at_hand
+            if at is None or at.found is not numbers.published or not at.lent:
+                return
+            at.lent -= 1
+            if self.spare is None and not numbers.written:
+                self.spare = numbers
+
+        self.gate.alone(act)
+
     def asked_for(self, index: Index) -> int:
         """Count that an edit asks for the program; look-ups are made anew with the structure."""
         self.asked = self.asked + 1 if index is self.index else 1
@@ -123,7 +148,7 @@ class KeptProgram:
             if self.at_hand is not one:
                 return False
             self.at_hand = other
-            return not one.lent
+            return one.lent == 0
 
         return self.gate.alone(act)
 
@@ -141,7 +166,7 @@ class KeptProgram:
         at, self.spare = self.at_hand, None
         if at is None or at.found is not before:
             return
-        if not self.replace(at, _AtHand(state, found, at.net, lent=False)):
+        if not self.replace(at, _AtHand(state, found, at.net, lent=0)):
             return
         spare = before.values
         _make_writeable(spare)
@@ -215,11 +240,11 @@ def _at_hand(document: HasProgram, state: HullState, *, lend: bool) -> _AtHand |
         at = kept.at_hand
         if at is None or at.state is not state:
             return None
-        at.lent = at.lent or lend
+        at.lent += lend
         return at
 
     carried = None if lend else partial(_carry, document, state)
-    return kept.gate.alone(known) or (carried and carried()) or _find(document, state)
+    return kept.gate.alone(known) or (carried and carried()) or _find(document, state, lend)
 
 
 def _net_of(state: HullState, index: Index) -> HullNetwork:
@@ -250,7 +275,7 @@ def _carry(document: HasProgram, state: HullState) -> _AtHand | None:
     differs.put(spare.values)
     freeze(*_arrays(spare.values))
     found = PublishedProgram(at.found.program, spare.values)
-    now = _AtHand(state, found, at.net, lent=False)
+    now = _AtHand(state, found, at.net, lent=0)
     if kept.replace(at, now):
         before = at.found.values
         _make_writeable(before)
@@ -310,7 +335,7 @@ class _Difference:
         values.gap[watched] = table.gap[program.watch[watched]]
 
 
-def _find(document: HasProgram, state: HullState) -> _AtHand | None:
+def _find(document: HasProgram, state: HullState, lend: bool) -> _AtHand | None:
     """Compile, where the structure is another than before; and read what has changed."""
     index, kept = document.index_of(state), document.program
     net = _net_of(state, index)
@@ -321,7 +346,7 @@ def _find(document: HasProgram, state: HullState) -> _AtHand | None:
     values = _numbers(state, program, lambda: _read(state, program, last.read))
     last.read = _Read(values, *_objects(state, program))
     # Derived numbers are kept by the tables as well, so they are never written to again.
-    at = _AtHand(state, PublishedProgram(program, values), net, lent=True)
+    at = _AtHand(state, PublishedProgram(program, values), net, lent=1 + lend)
 
     def keep() -> None:
         kept.at_hand = at

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import cached_property
-from typing import Self
+from collections.abc import Sequence
+from functools import cached_property, partial
+from typing import Self, cast
 
 import attrs
 import numpy as np
@@ -72,8 +72,8 @@ class HullShapes:
 
     Attributes
     ----------
-    splines : mapping of int to SplineBatch
-        All curves that have a shape.
+    splines : sequence of SplineBatch or None
+        By the numbers of curves: their shapes.
     draught : float, m
         The design draught.
     section_curves, station_of : (k,) int
@@ -82,7 +82,7 @@ class HullShapes:
         Where these are, ascending.
     """
 
-    splines: Mapping[int, SplineBatch]
+    splines: Sequence[SplineBatch | None]
     draught: float
     section_curves: IntArray
     station_of: IntArray
@@ -91,24 +91,30 @@ class HullShapes:
     @classmethod
     def of(cls, state: HullState) -> Self:
         """Take what is there; splines are frozen, so that later edits leave them alone."""
-        curves = lofted_curves(state)
-        splines = {curve: state.spline(curve) for curve in curves.tolist()}
-        line = state.curves.line[curves]
-        across = state.lines.planar[line] & (np.abs(state.lines.normal[line, 0]) == 1.0)
-        across &= state.lines.boundary[line] < 0
-        # An end plate in a plane of its own is a boundary curve: it is no section.
-        mine = curves[across]
-        x = state.lines.offset[line[across]] * state.lines.normal[line[across], 0]
+        curves, lines, splines = state.curves, state.lines, state.curves.spline.data
+        depends_on = (
+            curves.alive, curves.line, lines.planar, lines.normal, lines.boundary, lines.offset,
+        )  # fmt: skip
+        mine, x = state.derived(("plane sections",), depends_on, partial(_plane_sections, state))
+        if None in splines:  # curves that could not be made
+            there = np.array([splines[curve] is not None for curve in mine.tolist()], bool)
+            mine, x = mine[there], x[there]
         stations, station_of = np.unique(x, return_inverse=True)
         return cls(splines, state.particulars.draught, mine, station_of, stations)
+
+    def shapes(self, curves: IntArray) -> SplineBatch:
+        """Give some curves that have a shape, in their order; there is one."""
+        # Those of a state that is published all have one, or the callers have asked.
+        return SplineBatch.join(
+            cast("list[SplineBatch]", [self.splines[i] for i in curves.tolist()])
+        )
 
     @cached_property
     def areas(self) -> FloatArray:
         """Area of the half section within each of the section curves, below the draught, m2."""
         if not len(self.section_curves):
             return np.zeros(0)
-        batch = SplineBatch.join([self.splines[curve] for curve in self.section_curves.tolist()])
-        return section_areas(batch, self.draught)
+        return section_areas(self.shapes(self.section_curves), self.draught)
 
     def changes(self, curves: IntArray, spline: SplineBatch) -> tuple[float, float]:
         """Give about how much volume, m3, and its centre, m, change with other shapes of curves.
@@ -144,15 +150,29 @@ class HullShapes:
     def distances(self, curves: IntArray, spline: SplineBatch) -> FloatArray:
         """Give the distance of the farthest defining point of each curve from what is published."""
         found = np.full(len(curves), np.nan)
-        known = np.array([curve in self.splines for curve in curves.tolist()], bool)
+        count = len(self.splines)
+        known = np.array(
+            [curve < count and self.splines[curve] is not None for curve in curves.tolist()], bool
+        )
         if not known.any():
             return found
-        old = SplineBatch.join([self.splines[curve] for curve in curves[known].tolist()])
+        old = self.shapes(curves[known])
         new = chosen_curves(spline, np.flatnonzero(known))
         owner = np.repeat(np.arange(new.count), np.diff(new.start))
         away = closest_points_each(old, owner, new.xyz)[2]
         found[known] = np.maximum.reduceat(away, new.start[:-1])
         return found
+
+
+def _plane_sections(state: HullState) -> tuple[IntArray, FloatArray]:
+    """Give the curves of plane sections across the ship, ascending, and where they lie, m."""
+    curves = state.live("curves")
+    line = state.curves.line[curves]
+    across = state.lines.planar[line] & (np.abs(state.lines.normal[line, 0]) == 1.0)
+    # An end plate in a plane of its own is a boundary curve: it is no section.
+    across &= state.lines.boundary[line] < 0
+    x = state.lines.offset[line[across]] * state.lines.normal[line[across], 0]
+    return curves[across], x
 
 
 def chosen_curves(batch: SplineBatch, places: IntArray) -> SplineBatch:

@@ -281,17 +281,20 @@ def _by_curve(on: IntArray) -> tuple[IntArray, IntArray]:
 
 def put_crossing_positions(state: HullState, places: CrossingPositions) -> None:
     """Put places on curves back; the crossings must know their curves already."""
-    starts = np.cumsum(places.count) - places.count
-    for curve, start, count in zip(
-        places.curve.tolist(), starts.tolist(), places.count.tolist(), strict=True
-    ):
+    starts, curves = np.cumsum(places.count) - places.count, places.curve.tolist()
+    meets = list[CurveIntersections]()
+    for curve, start, count in zip(curves, starts.tolist(), places.count.tolist(), strict=True):
         span = slice(start, start + count)
         met = int((places.line[span] >= 0).sum())
-        span = slice(start, start + met)
-        state.curves.meets.store[curve] = CurveIntersections(
-            places.line[span].copy(), places.sign[span].astype(np.int8), places.row[span].copy(),
-            places.at[span, 0].copy(), places.at[span, 1:].copy(),
-        )  # fmt: skip
+        span, known = slice(start, start + met), state.curves.meets[curve]
+        what = places.line[span].copy(), places.sign[span].astype(np.int8), places.row[span].copy()
+        at = places.at[span, 0].copy(), places.at[span, 1:].copy()
+        if _has_crossings(known, *what):
+            # The very arrays say that the structure stays: no program is made anew.
+            meets.append(attrs.evolve(known, parameter=at[0], xyz=at[1]))
+        else:
+            meets.append(CurveIntersections(*what, *at))
+    state.curves.meets.put(curves, meets)
     actual = places.row >= 0
     row, table = places.row[actual], state.rows
     side = (table.curve[row, 0] != places.curve[places.owner[actual]]).astype(np.int64)
@@ -300,12 +303,24 @@ def put_crossing_positions(state: HullState, places: CrossingPositions) -> None:
     table.spot.put_parts(part, places.at[actual, 1:])
 
 
+def _has_crossings(
+    known: CurveIntersections, line: IntArray, sign: NDArray[np.int8], row: IntArray
+) -> bool:
+    one = np.array_equal(known.line, line) and np.array_equal(known.sign, sign)
+    return one and np.array_equal(known.row, row)
+
+
 # --------------------------------------------------------------------------------------
 # Changes.
 
 _PLACES = ("curves.meets", "rows.spot", "rows.parameter")
 _OWN_WAY = (*_PLACES, "curves.spline", "settings.births")
 """Columns that are not kept as they are: places on curves, splines, and counts of births."""
+
+_SHAPE = frozenset(
+    {"rows.xyz", "rows.gap", "rows.base", "rows.anchor_from", "rows.anchor_weight", "rows.faired"}
+)
+"""Columns that an edit of shape changes, besides places on curves, splines and features."""
 
 _S = TypeVar("_S", bound=np.generic)
 
@@ -359,6 +374,14 @@ class TableChange:
         parts += [rows for name, (rows, _) in self.bits.items() if _table(name) == table]
         parts += [rows for name, (rows, _, _) in self.objects.items() if _table(name) == table]
         return distinct(np.concatenate(parts))
+
+    @property
+    def keeps_structure(self) -> bool:
+        """Whether all numbers that change are places and shapes; of objects nothing is said."""
+        return not (
+            self.sizes or self.births or len(self.before.curve) or any(self.kept)
+            or not _SHAPE.issuperset(self.bits)
+        )  # fmt: skip
 
     @property
     def curves(self) -> IntArray:
@@ -601,8 +624,9 @@ def apply_change(state: HullState, change: TableChange, *, forward: bool) -> Non
     curves = np.union1d(change.lofted, revived)
     curves = curves[curves < state.curves.count]
     shape_curves(state, curves, change.kept[forward])
-    for curve in state.live("curves").tolist():
-        if state.curves.spline[curve] is None:
+    shape = state.curves.spline.data
+    for curve in state.live("curves").tolist() if None in shape else ():
+        if shape[curve] is None:
             raise ValueError(f"the curve {state.curves.key[curve]!r} would have no shape")
 
 
@@ -694,9 +718,7 @@ def _move_meetings(state: HullState, met: tuple[IntArray, NDArray[np.uint8]]) ->
                      xyz=at[b - len(each.line) : b, 1:].copy())
         for each, b in zip(meets, stop, strict=True)
     ]  # fmt: skip
-    store = state.curves.meets.store
-    for curve, each in zip(curves.tolist(), moved, strict=True):
-        store[curve] = each
+    state.curves.meets.put(curves.tolist(), moved)
     table, actual = state.rows, row >= 0
     part = 2 * row[actual] + (table.curve[row[actual], 0] != curves[owner[actual]])
     table.parameter.put_parts(part, at[actual, 0])
@@ -722,8 +744,6 @@ def shape_curves(state: HullState, curves: IntArray, kept: dict[int, SplineBatch
     chosen = state.curves.alive[curves] & (state.curves.state[curves] == State.CLEAN)
     made = curves[chosen]
     if len(made):
-        batch = loft_curves(state, made)
-        for curve, spline in zip(made.tolist(), batch.single(), strict=True):
-            state.curves.spline.store[curve] = spline
-    for curve, spline in kept.items():
-        state.curves.spline.store[curve] = spline
+        state.curves.spline.put(made.tolist(), loft_curves(state, made).single())
+    if kept:
+        state.curves.spline.put(list(kept), list(kept.values()))

@@ -22,7 +22,7 @@ from assoc_hull.edit import published_program as published_program_module
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.modification import Pending
 from assoc_hull.edit.program_edit import ProgramEdit
-from assoc_hull.edit.published_program import published_program
+from assoc_hull.edit.published_program import known_numbers, published_program
 from assoc_hull.edit.step import Step
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.kinds import Role, Sort
@@ -294,8 +294,22 @@ def test_numbers_carried_on_after_undo_are_those_of_the_tables(
             point = points[number % len(points)]
             with contextlib.suppress(ah.errors.AssocHullError):
                 _one_act(hull, act, point, size)
+            assert_numbers_at_hand_are_those_of_the_tables(hull)
     assert carried >= 1
     assert hull.verify() == ()
+
+
+def assert_numbers_at_hand_are_those_of_the_tables(hull: ah.Hull) -> None:
+    """The published ones, and those that the next edit would write."""
+    known, spare = known_numbers(hull.document), hull.document.program.spare
+    if known is None:
+        return
+    assert_read_of(hull.state, *known)
+    if spare is not None and spare.published.values is known[1] and not spare.written:
+        for name in (each.name for each in attrs.fields(Values)):
+            if name != "segment":
+                mine, theirs = getattr(spare.values, name), getattr(known[1], name)
+                assert mine.tobytes() == theirs.tobytes(), name
 
 
 def _one_act(hull: ah.Hull, act: str, point: str, size: float) -> None:
@@ -307,7 +321,14 @@ def _one_act(hull: ah.Hull, act: str, point: str, size: float) -> None:
     elif act == "drag":
         with hull.drag(point, radius=(20.0, 8.0)) as drag:
             drag.to(d=size)
-            drag.commit("drag")
+            if size > 0.0:
+                with contextlib.suppress(ah.errors.AssocHullError):
+                    drag.to(d=30.0 * size)
+                    drag.commit("too far, maybe")
+                    return
+                assert_numbers_at_hand_are_those_of_the_tables(hull)
+                drag.to(d=size)
+                drag.commit("drag")
     else:
         with by_program(Count(), always=act != "full"), hull.edit(act) as edit:
             if act == "move":

@@ -131,11 +131,6 @@ def column_bytes(name: str, column: Column) -> bytes:
 
 _PREFIX = "tree-"
 
-_SHAPE = frozenset(
-    {"rows.xyz", "rows.gap", "rows.base", "rows.anchor_from", "rows.anchor_weight", "rows.faired"}
-)
-"""Columns that an edit of shape changes, besides places on curves, splines and features."""
-
 _KEYS = ("rows.key", "curves.key", "lines.key", "groups.name")
 
 
@@ -205,7 +200,7 @@ class HashTree:
         rows, table = change.touched("rows"), self.state.rows
         owners = {*self._owner[rows[rows < len(self._owner)]].tolist()}
         curves = {*change.curves.tolist()}
-        if _keeps_structure(change):
+        if change.keeps_structure and {"featured.feature"}.issuperset(change.objects):
             self._stale |= owners | curves
             if change.objects:
                 self._features = self._feature_part()
@@ -462,14 +457,6 @@ def _renames(change: TableChange) -> bool:
         if name in change.objects
         for was, now in zip(*change.objects[name][1:], strict=True)
     )
-
-
-def _keeps_structure(change: TableChange) -> bool:
-    return not (
-        change.sizes or change.births or len(change.before.curve) or any(change.kept)
-        or not _SHAPE.issuperset(change.bits)
-        or not {"featured.feature"}.issuperset(change.objects)
-    )  # fmt: skip
 
 
 def _with(numbers: set[int], more: Iterable[int]) -> set[int]:

@@ -521,3 +521,38 @@ def test_a_pull_tells_how_far_it_is_felt(fresh_series60_70: ah.Hull) -> None:
         (reason,) = drag.to(d=0.01).refused
     assert drag.radius is None
     assert reason.startswith(hull.points[flat].crossing.name)  # type: ignore[union-attr]
+
+
+def test_a_drag_goes_on_after_a_commit_that_was_refused() -> None:
+    """It lets go of the hull to commit, and takes it again: steps are what they were."""
+    ship, twin = hull(), hull()
+    with ship.drag(POINT, radius=RADIUS) as drag, twin.drag(POINT, radius=RADIUS) as other:
+        wanted = other.to(0.012)
+        drag.to(0.004)
+        assert drag.to(9.0).refused
+        with pytest.raises(ah.errors.AssocHullError):
+            drag.commit("too far")
+        again = drag.to(0.012)
+        assert again.curves.tolist() == wanted.curves.tolist()
+        assert again.spline.xyz.tobytes() == wanted.spline.xyz.tobytes()
+        drag.commit("it")
+        other.commit("it")
+    assert ship.fingerprint == twin.fingerprint
+
+
+def test_a_drag_beside_another_has_numbers_of_its_own() -> None:
+    """What one gives back when it ends is not what the other one works on."""
+    ship = hull()
+    with ship.drag(POINT, radius=RADIUS) as first:
+        wanted = first.to(0.012).spline.xyz.tobytes()
+        with ship.drag(POINT, radius=RADIUS) as second:
+            assert second.to(0.012).spline.xyz.tobytes() == wanted
+        for d in (0.003, 0.012):
+            found = first.to(d)
+        assert found.spline.xyz.tobytes() == wanted
+        with ship.drag(POINT, radius=RADIUS) as third:
+            third.to(0.006)
+            third.commit("six")
+        with pytest.raises(BadInputError, match="changed since the drag began"):
+            first.to(0.012)
+    assert ship.verify() == ()
