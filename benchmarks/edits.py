@@ -233,9 +233,15 @@ def times_in_numpy(rounds: int) -> dict[str, dict[str, float]]:
 def _among_copies(counts: tuple[int, ...]) -> list[Figure]:
     """Edit one net in a hull that holds it many times, and alone."""
     base, times = ah.examples.series60(), dict[int, dict[str, float]]()
-    for count in counts:
-        hull = base if count == 1 else ah.Hull(copies_of(base.state, count))
-        times[count] = _times_among(hull, base.points[SHIPS["Series 60"].point])
+    with tempfile.TemporaryDirectory() as folder:
+        for count in counts:
+            hull = base if count == 1 else ah.Hull(copies_of(base.state, count))
+            times[count] = _times_among(hull, base.points[SHIPS["Series 60"].point])
+            # Without the edits made by now, which would all be written.
+            file = ah.Hull(hull.document.state.snapshot())
+            file.save(Path(folder) / f"{count}.hull")
+            saved = _times_among(file, base.points[SHIPS["Series 60"].point])
+            times[count] |= {f"{each} of a saved hull": saved[each] for each in _SAVED}
     return [
         Figure(f"{name} among {count} copies / alone", taken / times[1][name], goal=1.2,
                sense="most")
@@ -265,7 +271,29 @@ def _times_among(hull: ah.Hull, point: ah.Point) -> dict[str, float]:
         hull.undo()
         hull.redo()
 
+    def gesture() -> None:
+        with hull.drag(name, radius=RADIUS) as drag:
+            for part in range(1, 4):
+                drag.to(1e-3 * part * (-1) ** next(turn))
+            drag.commit("drag")
+
+    drag, begun = hull.drag(name, radius=RADIUS), hull.state_number
+
+    def step() -> None:
+        nonlocal drag, begun
+        if hull.state_number != begun:
+            drag, begun = hull.drag(name, radius=RADIUS), hull.state_number
+            drag.to(d=1e-3)
+        drag.to(d=1e-3 * (1 + next(turn) % 5))
+
     for _ in range(8):
         move()
-    jobs = {"move": move, "pull": pull, "preview": preview, "undo and redo": undo}
-    return side_by_side(jobs, 5, dict.fromkeys(jobs, 8))
+    jobs = {"move": move, "pull": pull, "preview": preview, "undo and redo": undo,
+            "drag of three steps and its commit": gesture}  # fmt: skip
+    times = side_by_side(jobs, 5, dict.fromkeys(jobs, 8))
+    # By itself: whoever holds a drag open lets the next edit copy what it looks at.
+    step()
+    return times | side_by_side({"step of a drag": step}, 5, {"step of a drag": 8})
+
+
+_SAVED = ("move", "pull", "undo and redo", "drag of three steps and its commit")

@@ -93,14 +93,13 @@ class HullShapes:
         """Take what is there; splines are frozen, so that later edits leave them alone."""
         curves, lines, splines = state.curves, state.lines, state.curves.spline.data
         depends_on = (
-            curves.alive, curves.line, lines.planar, lines.normal, lines.boundary, lines.offset,
+            curves.alive, curves.line, curves.state, lines.planar, lines.normal, lines.boundary,
+            lines.offset,
         )  # fmt: skip
-        mine, x = state.derived(("plane sections",), depends_on, partial(_plane_sections, state))
-        if None in splines:  # curves that could not be made
-            there = np.array([splines[curve] is not None for curve in mine.tolist()], bool)
-            mine, x = mine[there], x[there]
-        stations, station_of = np.unique(x, return_inverse=True)
-        return cls(splines, state.particulars.draught, mine, station_of, stations)
+        sections = state.derived(("plane sections",), depends_on, partial(_plane_sections, state))
+        if any(splines[curve] is None for curve in sections[1]):  # that could not be made
+            sections = _plane_sections(state)
+        return cls(splines, state.particulars.draught, sections[0], *sections[2:])
 
     def shapes(self, curves: IntArray) -> SplineBatch:
         """Give some curves that have a shape, in their order; there is one."""
@@ -164,15 +163,22 @@ class HullShapes:
         return found
 
 
-def _plane_sections(state: HullState) -> tuple[IntArray, FloatArray]:
-    """Give the curves of plane sections across the ship, ascending, and where they lie, m."""
-    curves = state.live("curves")
+def _plane_sections(state: HullState) -> tuple[IntArray, list[int], IntArray, FloatArray]:
+    """Give plane sections that have a shape, ascending, and as a list; their stations, and those.
+
+    The third are numbers of stations, one for each section; the last are where they lie, m.
+    """
+    curves, splines = state.live("curves"), state.curves.spline.data
     line = state.curves.line[curves]
     across = state.lines.planar[line] & (np.abs(state.lines.normal[line, 0]) == 1.0)
     # An end plate in a plane of its own is a boundary curve: it is no section.
     across &= state.lines.boundary[line] < 0
-    x = state.lines.offset[line[across]] * state.lines.normal[line[across], 0]
-    return curves[across], x
+    mine = np.array([i for i in curves[across].tolist() if splines[i] is not None], np.int64)
+    line = state.curves.line[mine]
+    x = state.lines.offset[line] * state.lines.normal[line, 0]
+    stations, station_of = np.unique(x, return_inverse=True)
+    freeze(mine, stations, station_of)
+    return mine, mine.tolist(), station_of, stations
 
 
 def chosen_curves(batch: SplineBatch, places: IntArray) -> SplineBatch:
