@@ -190,7 +190,7 @@ class _Hands:
     packed: bytes
     stay: str
     key: str
-    sent: Future | None = None
+    sent: Future | bytes | None = None
     running: dict[Future, tuple[int, ...]] = attrs.field(factory=dict)
     back: SimpleQueue[Future] = attrs.field(factory=SimpleQueue)
     lost: dict[int, int] = attrs.field(factory=dict)
@@ -260,7 +260,12 @@ class _Hands:
                     return self._rows(future, self.running.pop(future))
 
     def _give_up_waiting(self) -> None:
-        """Hand in all that is on its way: the scheduler knows of it, and nobody works on it."""
+        """Hand in all that is on its way: the scheduler knows of it, and nobody works on it.
+
+        What was sent may have been lost with workers, and the scheduler not know it: from now on
+        each batch brings the hull and the design along.
+        """
+        self.sent = self.packed
         silent, self.running = self.running, {}
         self.client.cancel(list(silent), force=True)
         self.heard = time.monotonic()
@@ -300,7 +305,7 @@ class _Hands:
             what = f"workers {how} {self.lost[first]} times over rows {first} to {numbers[-1]}"
             raise self.trouble(what, "see their logs, and their memory") from error
         self.queue.give_back(numbers)
-        if self.sent is None or self.sent.status != "finished":
+        if self.sent is not self.packed and getattr(self.sent, "status", "") != "finished":
             self.send_parent()
 
     def drop(self) -> None:

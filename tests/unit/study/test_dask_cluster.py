@@ -85,6 +85,28 @@ def test_workers_that_say_nothing_are_not_waited_for(
         assert hull.study(**ASKED, cluster=client).rows == here.rows
 
 
+def test_a_hull_that_is_lost_without_a_word_is_sent_again(
+    hull: ah.Hull, here: Study, cluster: LocalCluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The scheduler waits for what no worker has, and nobody says a word: batches bring it."""
+    monkeypatch.setattr(dask_cluster, "_STALL", 0.5)
+    with Client(cluster, set_as_default=False) as client:
+        nowhere = "tcp://127.0.0.1:9"
+
+        def lost(hands: dask_cluster._Hands) -> None:
+            hands.sent = client.submit(bytes, workers=[nowhere], pure=False)
+
+        give_up = dask_cluster._Hands._give_up_waiting
+
+        def once(hands: dask_cluster._Hands) -> None:
+            give_up(hands)
+            monkeypatch.setattr(dask_cluster, "_STALL", 300.0)
+
+        monkeypatch.setattr(dask_cluster._Hands, "send_parent", lost)
+        monkeypatch.setattr(dask_cluster._Hands, "_give_up_waiting", once)
+        assert hull.study(**ASKED, cluster=client).rows == here.rows
+
+
 def test_a_scheduler_that_goes_away_is_told_and_the_same_call_goes_on(
     hull: ah.Hull, here: Study, cluster: LocalCluster, tmp_path: Path
 ) -> None:
