@@ -152,6 +152,7 @@ class Column(Generic[S]):
         ours, old = self._references() == _ALONE, self._store
         if ours and self._spare is not None and self._differ is not None:
             spare = self._spare
+            self._spare_writes = -1  # broken off on its way, it is no state of the column
             if _SINGLY * self._differing > len(old):
                 np.copyto(spare, old)
             else:
@@ -676,6 +677,7 @@ class ValueColumn(Generic[V]):
         if spare is None or self._differ is None:
             spare = old.copy()
         else:
+            self._spare_writes = -1
             for row in self._differ:
                 spare[row] = old[row]
         self.data, self._spare, self._spare_writes = spare, old, self.writes

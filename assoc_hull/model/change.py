@@ -379,8 +379,8 @@ class TableChange:
     def keeps_structure(self) -> bool:
         """Whether all numbers that change are places and shapes; of objects nothing is said."""
         return not (
-            self.sizes or self.births or len(self.before.curve) or any(self.kept)
-            or not _SHAPE.issuperset(self.bits)
+            self.sizes or self.births or len(self.before.curve) or len(self.after.curve)
+            or any(self.kept) or not _SHAPE.issuperset(self.bits)
         )  # fmt: skip
 
     @property
