@@ -125,15 +125,17 @@ def adopt_completed(
 ) -> tuple[HullState, AdoptionReport]:  # fmt: skip
     """Adopt a table with its completion at full size, as of `at_full_size`.
 
-    `straight`: lines off the flats run straight, too, where they have one greatest offset, and
-    sections turn where they have a knuckle.
+    `straight`: lines off the flats run straight, too, where they have one greatest offset,
+    sections turn where they have a knuckle, and lines are named as the table names them.
     """
     factor, full = length_factor(table.length), at_full_size(table)
     flats = _FlatBorder(completion.side, full)
     sources = _boundaries(full, completion, flats)
     wet = [i for i in range(len(full.x)) if (full.half_breadth[i, 1:] > 0.0).any()]
-    sources += [_closed_section(full, completion, flats, i, factor) for i in wet]
-    sources += [_closed_waterline(full, completion, flats, j) for j in range(1, len(full.z) - 1)]
+    stations, levels = _names(table) if straight else _names_of_shipped(table)
+    sources += [_closed_section(full, completion, flats, i, factor, stations[i]) for i in wet]
+    inner = range(1, len(full.z) - 1)
+    sources += [_closed_waterline(full, completion, flats, j, levels[j]) for j in inner]
     if straight:
         corners = knuckles_of_table(full)
         sources = [_with_knuckles(each, full, corners) for each in sources]
@@ -152,6 +154,28 @@ def adopt_completed(
     bare = [i for i in range(len(table.x)) if i not in wet]
     notes = tuple(f"station at x = {table.x[i]:g} m: no breadth, no section made" for i in bare)
     return state, attrs.evolve(report, notes=(*_printed(table), *notes, *report.notes))
+
+
+def _names(table: OffsetTable) -> tuple[list[str], list[str]]:
+    """Name sections and waterlines by the numbers that the table prints, else by their places."""
+    stations = _as_printed("sections", table.station, table.x)
+    return stations, _as_printed("waterlines", table.level, table.z)
+
+
+def _as_printed(group: str, printed: FloatArray | None, places: FloatArray) -> list[str]:
+    numbers = places if printed is None else np.where(np.isfinite(printed), printed, places)
+    # A place that reads as the number of another line would give two lines one name.
+    shown = [plane_name(group, each) for each in numbers.tolist()]
+    if len({*shown}) < len(shown):
+        shown = [plane_name(group, each) for each in places.tolist()]
+    return shown
+
+
+def _names_of_shipped(table: OffsetTable) -> tuple[list[str], list[str]]:
+    """Name them as the shipped Series 60 has them: 20 stations from AP, parts of the draught."""
+    draught = table.draught or 1.0
+    stations = [f"ST {round(20.0 * x / table.length, 6):g}" for x in table.x.tolist()]
+    return stations, [f"WL {z / draught:g}" for z in table.z.tolist()]
 
 
 def _with_knuckles(line: LineSource, table: OffsetTable, knuckles: NDArray[np.bool_]) -> LineSource:
@@ -305,7 +329,7 @@ def _border_kinds(side: FloatArray) -> list[int]:
 def _boundaries(table: OffsetTable, completion: Completion, flats: _FlatBorder) -> list[LineSource]:
     """Give profile and deck edge as ends of the hull, and the borders of the flats there are."""
     top = float(table.z[-1])
-    deck = _closed_waterline(table, completion, flats, len(table.z) - 1)
+    deck = _closed_waterline(table, completion, flats, len(table.z) - 1, "deck edge")
     found = [
         LineSource.make(
             "boundary", "profile", completion.profile, plane=((0, 1, 0), 0.0),
@@ -356,13 +380,12 @@ def _in_order(
 
 
 def _closed_section(
-    table: OffsetTable, completion: Completion, flats: _FlatBorder, i: int, factor: float
+    table: OffsetTable, completion: Completion, flats: _FlatBorder, i: int, factor: float, name: str
 ) -> LineSource:
     x = float(table.x[i])
     y, z = table.half_breadth[i], table.z
     wet = np.isfinite(y) & (y > 0.0)
     wet[0] = False
-    name = f"ST {round(20.0 * x / table.length, 6):g}"
     start = _foot(completion, x, float(z[wet][0]), factor)
     points = [np.array([x, b, h]) for b, h in zip(y[wet], z[wet], strict=True)]
     side = flats.meet(0, x)
@@ -402,7 +425,7 @@ def _foot(completion: Completion, x: float, below: float, factor: float) -> Floa
 
 
 def _closed_waterline(
-    table: OffsetTable, completion: Completion, flats: _FlatBorder, j: int
+    table: OffsetTable, completion: Completion, flats: _FlatBorder, j: int, name: str
 ) -> LineSource:
     z = float(table.z[j])
     y = table.half_breadth[:, j]
@@ -411,7 +434,6 @@ def _closed_waterline(
     points = [np.array([x, b, z]) for x, b in zip(table.x[wet], y[wet], strict=True)]
     points += [np.array([completion.stern[j], 0.0, z]), np.array([completion.stem[j], 0.0, z])]
     side = flats.meet(2, z) if j < len(table.z) - 1 else _deck_flat(flats, z)
-    name = f"WL {z / (table.draught or 1.0):g}"
     xyz, kind, direction = _in_order(points, side, np.array([1.0, 0.0, 0.0]), 0)
     return LineSource.make("waterlines", name, xyz, kind=kind, direction=direction)
 
@@ -474,16 +496,23 @@ def lines_of_table(
     profile = _keel_profile(table, ends)
     knuckles = knuckles_of_table(table)
     near = factor * _TOLERANCE
+    stations, heights = _names(table)
     found = [
         _straightened(
-            table, "sections", points, x, near, corner=_corners(points, table, knuckles, i)
+            table,
+            "sections",
+            points,
+            x,
+            near,
+            stations[i],
+            corner=_corners(points, table, knuckles, i),
         )
         for i, x in enumerate(table.x.tolist())
         for points in _open_sections(table, i)
     ]
     levels = len(table.z) - (table.deck_height is None)
     found += [
-        _straightened(table, "waterlines", points, z, near, j)
+        _straightened(table, "waterlines", points, z, near, heights[j], j)
         for j, z in enumerate(table.z[:levels].tolist())
         if z > factor * _LEVEL
         for points in _open_waterlines(table, j, profile)
@@ -520,8 +549,8 @@ def _deck_edge(table: OffsetTable, points: FloatArray, near: float) -> LineSourc
 
 
 def _straightened(
-    table: OffsetTable, group: str, points: FloatArray, place: float, near: float, j: int = -1,
-    *, corner: NDArray[np.bool_] | None = None,
+    table: OffsetTable, group: str, points: FloatArray, place: float, near: float, name: str,
+    j: int = -1, *, corner: NDArray[np.bool_] | None = None,
 ) -> LineSource:  # fmt: skip
     """Make a section or waterline that runs straight on the flats, and leaves them tangent.
 
@@ -546,7 +575,7 @@ def _straightened(
     if group == "sections" and _has_chine(points, same):
         kind[1], direction[1] = int(PointKind.KNUCKLE), 0.0
     line = LineSource.make(
-        group, plane_name(group, place), points, plane=(tuple(np.eye(3)[axis].tolist()), place),
+        group, name, points, plane=(tuple(np.eye(3)[axis].tolist()), place),
         kind=kind.tolist(), direction=direction, tolerance=near,
     )  # fmt: skip
     return held_up(line, 2, near) if group == "sections" else line

@@ -117,6 +117,7 @@ def build_table(
         depth=_depth(x[order], deck, length),
         rounding=rounding,
         station=sheet.stations[order].copy(),
+        level=_levels(sheet, scale, hints),
         stated=hints.stated(),
     )
     table = _with_plumb_ends(table, _named(sheet)[order], book)
@@ -203,10 +204,8 @@ def _refuse_size(table: OffsetTable, source: str) -> None:
 def _height(
     sheet: OffsetSheet, column: OffsetColumn, scale: OffsetScale, hints: OffsetHints
 ) -> float:
-    # Waterlines that go by number: whole ones, and halves and quarters at the bottom.
-    columns = sheet.columns.waterlines
-    numbered = all(each.unit is None and (4.0 * each.value).is_integer() for each in columns)
-    if hints.level_spacing and numbered:
+    if _are_numbered(sheet, hints):
+        assert hints.level_spacing is not None
         return column.value * hints.level_spacing
     if column.unit != "t":
         return column.value * column_scale(scale.z, column.unit)
@@ -217,6 +216,25 @@ def _height(
             "give draught= in m",
         )
     return column.value * scale.draught
+
+
+def _are_numbered(sheet: OffsetSheet, hints: OffsetHints) -> bool:
+    """Tell whether waterlines go by number: whole ones, and halves and quarters at the bottom."""
+    columns = sheet.columns.waterlines
+    numbered = all(each.unit is None and (4.0 * each.value).is_integer() for each in columns)
+    return bool(hints.level_spacing) and numbered
+
+
+def _levels(sheet: OffsetSheet, scale: OffsetScale, hints: OffsetHints) -> FloatArray | None:
+    """Give the waterlines as printed, (w,), where these are no heights; else None."""
+    columns = sheet.columns.waterlines
+    # At a draught of 1 m parts and heights are the same numbers.
+    parts = (
+        each.unit == "t" or column_scale(scale.z, each.unit) == scale.draught for each in columns
+    )
+    if not _are_numbered(sheet, hints) and not all(parts):
+        return None
+    return np.array([each.value for each in columns])
 
 
 _CONVERTED = 2e-4

@@ -56,6 +56,8 @@ class OffsetTable:
         Half unit of the last printed digit of each waterline, at full scale.
     station : (s,) or None
         The station numbers as printed; nan where the name is no number.
+    level : (w,) or None
+        The waterlines as printed, where these are parts of the draught or numbers; None: heights.
     stated : mapping of str to float
         What the file says of the hull as a whole: "Lpp", "B", "T", "D" (m), "L/B", "B/T", "CB",
         "CM", "CP", "CW"; those that it says.
@@ -76,6 +78,7 @@ class OffsetTable:
     depth: float | None
     rounding: FloatArray
     station: FloatArray | None = None
+    level: FloatArray | None = None
     stated: Mapping[str, float] = attrs.field(factory=dict)
 
     def at_full_length(self, factor: float) -> OffsetTable:
@@ -101,4 +104,4 @@ class OffsetTable:
     def __attrs_post_init__(self) -> None:
         arrays = (self.x, self.z, self.half_breadth, self.buttock_y, self.rounding)
         maybe = (self.keel, self.deck_height, self.deck_half_breadth, self.buttock_height)
-        freeze(*arrays, *(a for a in (*maybe, self.station) if a is not None))
+        freeze(*arrays, *(a for a in (*maybe, self.station, self.level) if a is not None))

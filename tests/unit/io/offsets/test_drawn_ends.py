@@ -28,4 +28,4 @@ def test_no_note_names_a_line_by_its_key(tmp_path: Path) -> None:
     """A crossing that is left out is named as people name it."""
     notes = trawler(tmp_path).adoption.notes  # type: ignore[union-attr]
     (left,) = [note for note in notes if note.startswith("profile x") or "x profile" in note]
-    assert left == "ST 20 x profile: not reached, left out"
+    assert left == "ST 10 x profile: not reached, left out"
