@@ -194,8 +194,9 @@ class _QuickWay:
                     found = cls(numbers, state, row, None, pull, ground)
         except AssocHullError:
             found = None  # each step says why
-        if found is None:
-            document.program.give_back(numbers)
+        finally:
+            if found is None:
+                document.program.give_back(numbers)
         return found
 
     def written(self, asked: dict[str, float]) -> tuple[IntArray, FloatArray] | None:
@@ -359,9 +360,10 @@ class Drag:
 
     def _give_back(self) -> None:
         """Let go of the numbers and of the tables of the published hull: an edit may use them."""
+        # First, so that whoever breaks in leaves a drag that takes them again.
+        self._given_back = self._given_back or self._quick is not None
         quick, self._quick = self._quick, None
         if quick is not None:
-            self._given_back = True
             self._document.program.give_back(quick.numbers)
 
     def _quick_way(self, state: HullState) -> _QuickWay | None:

@@ -240,7 +240,7 @@ class Column(Generic[S]):
 
         They are the very same, or all that was written since has been taken back.
         """
-        if not isinstance(other, Column):
+        if not isinstance(other, Column) or len(other.data) != len(self.data):
             return False
         known = self._differ is not None  # every write has left its number
         return other._store is self._store or (known and other.writes == self.writes)

@@ -23,7 +23,8 @@ from assoc_hull.edit.mapped_planes import (
 )
 from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray
+from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.segments import derivative
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.kinds import Sort
@@ -39,7 +40,7 @@ __all__ = [
     "carry_directions",
     "carry_ends",
     "carry_points",
-    "curve_data_through",
+    "loft_through",
     "point_images",
     "turned_directions",
     "turned_ends",
@@ -363,10 +364,10 @@ def _refuse_folds(state: HullState, live: IntArray, j: FloatArray) -> None:
         )  # fmt: skip
 
 
-def curve_data_through(
+def loft_through(
     work: TransformationState, curves: Sequence[int], parts: Sequence[DefiningPoints] | None = None
-) -> CurveData:
-    """Give what the chosen points make of curves, for lofting beside the tables.
+) -> SplineBatch:
+    """Loft curves through the points chosen for them, beside the tables.
 
     Parameters
     ----------
@@ -376,6 +377,11 @@ def curve_data_through(
         The curves; one may come again with other points.
     parts : sequence of DefiningPoints or None
         Their points; None for those that are chosen.
+
+    Raises
+    ------
+    CoincidentPointsError, TooFewPointsError
+        With the name of the line whose points came together or are too few.
     """
     state = work.state
     parts = [work.made[curve] for curve in curves] if parts is None else parts
@@ -387,7 +393,7 @@ def curve_data_through(
     kind = np.where(row >= 0, state.rows.kind[row, side], 0).astype(np.int8)
     direction = np.where((row >= 0)[:, None], state.rows.direction[row, side], 0.0)
     ends = [state.curves.ends[curve] for curve in curves]
-    return CurveData(
+    data = CurveData(
         start,
         np.array([place for part in parts for place in part.place]),
         kind,
@@ -395,6 +401,7 @@ def curve_data_through(
         np.array([end.kind for end in ends], np.int8),
         np.array([end.vector for end in ends], np.float64),
     )
+    return loft(data, [str(state.lines.name[state.line_of(curve)]) for curve in curves])
 
 
 def _lay(vectors: FloatArray, normal: FloatArray) -> FloatArray:

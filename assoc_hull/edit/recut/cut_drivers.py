@@ -15,7 +15,7 @@ from assoc_hull.edit.mapped_planes import IN_PLANE, snap_into_planes
 from assoc_hull.edit.recut.carried_points import (
     DefiningPoints,
     TransformationState,
-    curve_data_through,
+    loft_through,
 )
 from assoc_hull.edit.recut.changed_ends import (
     aligned_pairs,
@@ -28,7 +28,6 @@ from assoc_hull.edit.recut.driver_image import CurveImages, ImageIntersections, 
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.model.address import address
 from assoc_hull.model.index import Index
 from assoc_hull.model.kinds import BoundaryKind, Role, Sort
@@ -433,7 +432,7 @@ def hold_to_images(work: TransformationState, image: CurveImages, tolerance: flo
     least *= work.state.tolerances.factor
     for _ in range(_ROUNDS):
         now = [curves[i] for i in left.tolist()]
-        batch = loft(curve_data_through(work, now), [str(keys[curve]) for curve in now])
+        batch = loft_through(work, now)
         at = np.concatenate([np.array(work.made[curve].at) for curve in now])
         away, middle = image_misfit(image, left, batch, at)
         count = np.diff(batch.start) - 1

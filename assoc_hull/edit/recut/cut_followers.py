@@ -9,6 +9,7 @@ old shape go, and `follower_points` finds new ones that hold the new shape.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from assoc_hull.edit.mapped_planes import IN_PLANE, plane_heights, snap_into_pla
 from assoc_hull.edit.recut.carried_points import (
     DefiningPoints,
     TransformationState,
-    curve_data_through,
+    loft_through,
 )
 from assoc_hull.edit.recut.driver_image import CurveImages, ImageIntersections, gaps_across
 from assoc_hull.edit.recut.follower_points import (
@@ -35,7 +36,6 @@ from assoc_hull.edit.recut.follower_points import (
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.splines.distance import closest_points
-from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.geometry.splines.segments import derivative
 from assoc_hull.model.kinds import Role, Sort
@@ -282,7 +282,7 @@ def _points(work: TransformationState, curve: int) -> DefiningPoints:
     work.watched -= set(order)
     loose = loose_points(work, curve, order)
     order = [row for row in order if row not in set(loose)]
-    _refuse_doubled(work, curve, order)
+    _refuse_doubled(work, curve, [work.value[row] for row in order])
     new = [row for _, row in work.contacts if curve in state.rows.curve[row]]
     # Those that are ends stand in the order already.
     new = [row for row in new if row not in work.new_ends.values()]
@@ -300,6 +300,8 @@ def _points(work: TransformationState, curve: int) -> DefiningPoints:
     ties = [row for row in loose if row not in set(own)]
     # Before own points: where these slip to is less certain.
     tie_to_crossings(work, curve, found, ties)
+    # A new contact may have come where another point is.
+    _refuse_doubled(work, curve, found.place, apart=1)
     options = _hold(work, curve, found)
     tie_to_own_points(work, curve, found, own)
     options += free_points(work, own, [*ties, *_smooth(work, curve, found, ties)])
@@ -308,11 +310,18 @@ def _points(work: TransformationState, curve: int) -> DefiningPoints:
     return found
 
 
-def _refuse_doubled(work: TransformationState, curve: int, rows: list[int]) -> None:
-    """Refuse points of a follower that have come together: its plane touches the hull there."""
-    places = work.value[rows]
+def _refuse_doubled(
+    work: TransformationState, curve: int, chosen: Sequence[FloatArray], apart: int | None = None
+) -> None:
+    """Refuse points of a follower that have come together: its plane touches the hull there.
+
+    `apart`: only those so many places apart in their order; None: any two.
+    """
+    places = np.array(chosen)
     near = ((places[:, None] - places[None]) ** 2).sum(axis=2)
-    near[np.tril_indices(len(rows))] = np.inf
+    near[np.tril_indices(len(places))] = np.inf
+    if apart is not None:
+        near[np.triu_indices(len(places), apart + 1)] = np.inf
     doubled = np.argwhere(near <= work.state.tolerances.coincident**2)
     if len(doubled):
         name = work.state.lines.name[work.state.line_of(curve)]
@@ -348,7 +357,7 @@ def _hold(work: TransformationState, curve: int, found: DefiningPoints) -> list[
     places = np.zeros((0, 3))
     for _ in range(_ROUNDS):
         work.made[curve] = found
-        spline = loft(curve_data_through(work, [curve]))
+        spline = loft_through(work, [curve])
         if not len(places):
             places = _as_before(work, curve, rows, spline)
         at, _, away = closest_points(spline, 0, places)
@@ -482,7 +491,7 @@ def _give(work: TransformationState, curve: int) -> None:
     if not wanted:
         return
     work.made[curve] = _points(work, curve)
-    spline = loft(curve_data_through(work, [curve]), [str(state.curves.key[curve])])
+    spline = loft_through(work, [curve])
     for line in sorted({state.line_of(work.other(row, curve)) for row in wanted}):
         _cut_one(work, curve, spline, line, set(wanted))
 

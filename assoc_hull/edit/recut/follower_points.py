@@ -18,14 +18,13 @@ from assoc_hull.edit.mapped_planes import snap_into_planes
 from assoc_hull.edit.recut.carried_points import (
     DefiningPoints,
     TransformationState,
-    curve_data_through,
+    loft_through,
 )
 from assoc_hull.edit.recut.driver_image import ProjectedImage, projected_image
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.fairness.combs import DEAD_BAND, comb_integrals, curvature_sign_changes
 from assoc_hull.geometry.splines.curve_order import curve_folds
 from assoc_hull.geometry.splines.distance import closest_points, closest_points_each
-from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.plane_intersections import intersect_planes
 from assoc_hull.model.kinds import Sort
 from assoc_hull.model.tables import CurveIntersections
@@ -182,7 +181,7 @@ def _unfair(spline: SplineBatch, normal: FloatArray) -> tuple[IntArray, FloatArr
 
 def _lofted(work: TransformationState, curve: int, trials: Sequence[_Trial]) -> SplineBatch:
     """Make a follower through the points of each trial."""
-    return loft(curve_data_through(work, [curve] * len(trials), [each.points for each in trials]))
+    return loft_through(work, [curve] * len(trials), [each.points for each in trials])
 
 
 def _costs(
@@ -306,7 +305,7 @@ def round_turns(work: TransformationState, curve: int, found: DefiningPoints) ->
         zip(state.curves.rows[curve].tolist(), state.spline(curve).knot.tolist(), strict=True)
     )
     work.made[curve] = found
-    turns = curve_folds(loft(curve_data_through(work, [curve]))).knot.tolist()
+    turns = curve_folds(loft_through(work, [curve])).knot.tolist()
     if len(turns) <= len(curve_folds(state.spline(curve))):
         return
     shadow: ProjectedImage | None = None
@@ -428,7 +427,7 @@ def _taken(
         if not left:
             break
         work.made[curve] = found
-        spline = loft(curve_data_through(work, [curve]))
+        spline = loft_through(work, [curve])
         at, _, away = closest_points(spline, 0, work.value[left])
         vague = np.array([work.doubt.get(row, 0.0) for row in left])
         segment = np.searchsorted(spline.knot, at, side="right")
@@ -450,7 +449,7 @@ def _sound(work: TransformationState, curve: int, found: DefiningPoints) -> bool
     """Tell whether a follower does not fold, and meets lines that it drives as often as it may."""
     state = work.state
     work.made[curve] = found
-    spline = loft(curve_data_through(work, [curve]))
+    spline = loft_through(work, [curve])
     if len(curve_folds(spline)) > len(curve_folds(state.spline(curve))):
         return False
     meets: CurveIntersections = state.curves.meets[curve]

@@ -423,3 +423,14 @@ def test_a_script_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:
     path = tmp_path / "wider.json"
     path.write_text('{"set": {"breadth": 33.0}}', encoding="utf-8-sig")
     assert read_script(path) == {"name": "wider", "set": {"breadth": 33.0}}
+
+
+def test_a_plane_that_comes_to_touch_the_flat_of_bottom_is_told_by_its_line(
+    shipped: Shipped,
+) -> None:
+    """A buttock through the widest place of the border meets it once, not twice: told by name."""
+    hull = shipped("series60_70")
+    state = hull.document.state
+    widest = float(state.lines.offset[state.lines.name.data.index("BTK 0.76")])
+    with pytest.raises(BadInputError, match=r"two points of BTK 0.76 come to lie in one place"):
+        hull.vary(set={"flat_of_bottom": widest})
