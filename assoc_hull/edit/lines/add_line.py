@@ -274,7 +274,7 @@ def _outermost(ends: FloatArray, heading: FloatArray) -> FloatArray | None:
 _RING = 4
 """A ring of fewer marks than this makes no curve."""
 
-_AGREEING, _AGREE = 4, 0.8
+_AGREEING, _AGREE = 3, 0.8
 """So many numbered lines, and such a part of them, make the measure of a group."""
 
 _ROUNDED = 2e-3
@@ -406,7 +406,8 @@ def _name_in_use(state: HullState, cut: CuttingPlane) -> str | None:
     unit = float(np.median(ways[steps > 0.0] / steps[steps > 0.0]))
     zero = float(np.median(places - unit * numbers))
     off = np.abs(places - zero - unit * numbers)
-    if unit <= 0.0 or (off < _ROUNDED * unit).mean() < _AGREE:
+    # Stations may be counted from forward: then places fall as numbers rise.
+    if unit == 0.0 or (off < _ROUNDED * abs(unit)).mean() < _AGREE:
         return None
     if abs(unit - 1.0) < _ROUNDED and abs(zero) < _ROUNDED:
         return None

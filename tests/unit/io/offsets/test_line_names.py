@@ -37,6 +37,9 @@ def test_sections_have_the_numbers_that_the_table_prints(tmp_path: Path, zero: s
     place = hull.groups["sections"].lines["ST 16"].curves[0].points[0].position[0]
     assert place == pytest.approx(32.0 if zero == "AP" else 8.0)
     assert {"WL 0.8", "WL 1.6", "WL 2.4"} <= names(hull, "waterlines")
+    with hull.edit("between two of them") as edit:
+        edit.add_line("sections", 9.0)
+    assert ("ST 4.5" if zero == "AP" else "ST 15.5") in names(hull, "sections")
 
 
 def test_sections_by_place_are_named_by_it(tmp_path: Path) -> None:
@@ -55,3 +58,6 @@ def test_waterlines_in_draughts_keep_their_parts(tmp_path: Path) -> None:
     head = "station," + ",".join(f"wl_{z / 3.2:g}" for z in LEVELS)
     hull = read(tmp_path, "number", head, "# station 0 = AP, waterlines z/T")
     assert {"WL 0.25", "WL 0.5", "WL 0.75"} <= names(hull, "waterlines")
+    with hull.edit("between two of them") as edit:
+        edit.add_line("waterlines", 2.0)
+    assert "WL 0.625" in names(hull, "waterlines")
