@@ -13,7 +13,7 @@ from assoc_hull.analysis.hydrostatics.flotation import (
     EvenKeelDisplacement,
     even_keel_displacement,
 )
-from assoc_hull.display import ShownAsText
+from assoc_hull.display import ShownAsText, counted
 from assoc_hull.edit.hull_normals import hull_normals
 from assoc_hull.edit.modifications.fair import BoundPoint, Faired
 from assoc_hull.edit.net_battens import net_battens
@@ -239,7 +239,7 @@ class FairReport(ShownAsText):
             yield _HEAD
             yield from map(str, moved[:_SHOWN])
         if len(moved) > _SHOWN:
-            yield f"and {len(moved) - _SHOWN} more lines"
+            yield f"and {counted(len(moved) - _SHOWN, 'more line')}"
         yield ""
         yield from self.notes
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import attrs
 import numpy as np
 
-from assoc_hull.display import ShownAsText
+from assoc_hull.display import ShownAsText, counted
 from assoc_hull.edit.checks.update_findings import MOVE_ADVICE
 from assoc_hull.edit.document import Document, end_if_stopped
 from assoc_hull.edit.mapped_planes import IN_PLANE
@@ -169,7 +169,7 @@ def _refuse_unfair(
         return
     lines = ", ".join(f"{name} {times:.3g} times" for name, times in beyond[:_NAMED])
     if len(beyond) > _NAMED:
-        lines += f" and {len(beyond) - _NAMED} more lines"
+        lines += f" and {counted(len(beyond) - _NAMED, 'more line')}"
     edit.take_back()  # what may be asked for is sought on the parent
     raise RefusedEditError(ask.name, (
         f"lines would bend more sharply than they do, by their combs: {lines}; "
@@ -183,7 +183,7 @@ def _fair_values(ask: VariationRequest, room: AdmissibleValues) -> str:
     for name, value in ask.values.items():
         low, high = room.fair_interval(name)
         if not low <= value <= high:
-            remedies.append(f"ask for a {name} {room.fair_words(name)}, where lines stay fair")
+            remedies.append(f"ask for {name} {room.fair_words(name)}, where lines stay fair")
     return " and ".join(remedies or ["ask for less"])
 
 

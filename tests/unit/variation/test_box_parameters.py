@@ -101,5 +101,5 @@ def test_a_variation_that_folds_lines_is_answered_with_values_and_not_with_point
     with pytest.raises(RefusedEditError) as caught:
         ah.examples.wigley().vary(set={"breadth": 900.0})
     [told] = caught.value.findings
-    assert told.startswith(f"{FOLD}: ask for a breadth from ")
+    assert told.startswith(f"{FOLD}: ask for breadth from ")
     assert "point" not in told
