@@ -30,8 +30,10 @@ from assoc_hull.variation.aiming.reach_targets import SettledPlan, settle_plan, 
 from assoc_hull.variation.carrying.admissible_values import AdmissibleValues
 from assoc_hull.variation.carrying.carry_stages import DoneStage, StagedCarry
 from assoc_hull.variation.comparing.line_fairness import (
+    FairnessChange,
     FairnessComparison,
     LineFairness,
+    comb_within,
     compare_fairness,
     measure_fairness,
 )
@@ -146,13 +148,24 @@ def parent_fairness(state: HullState) -> Mapping[str, LineFairness]:
     return state.derived(("fairness",), depends_on, lambda: measure_fairness(state), most=2)
 
 
-def beyond_fair(fairness: FairnessComparison) -> list[tuple[str, float]]:
+def beyond_fair(fairness: FairnessComparison, state: HullState) -> list[tuple[str, float]]:
     """Give the lines that bend as sharply as no one would take, worst first, and how many times.
 
-    A border alone, as a stem that is to be raked, may come to bend as it has not.
+    A border alone, as a stem that is to be raked, may come to bend as it has not. A line that is
+    fair within the adoption tolerance bends sharply between points close together, and is seen by
+    nobody.
     """
     found = sorted(fairness.unfairness, key=lambda each: -each[1])
-    return [(ln.name, times) for ln, times in found if times > _BEYOND and not ln.before.border]
+    return [
+        (line.name, times) for line, times in found
+        if times > _BEYOND and not line.before.border and _is_seen(line, times, state)
+    ]  # fmt: skip
+
+
+def _is_seen(line: FairnessChange, times: float, state: HullState) -> bool:
+    """Tell whether a line that bends too sharply does so beyond the adoption tolerance, too."""
+    enough = line.after.comb * _BEYOND / times
+    return comb_within(state, line.after, state.tolerances.adoption, enough) > enough
 
 
 def _candidates(ask: VariationRequest) -> list[tuple[Plan, bool]]:
@@ -262,13 +275,13 @@ def _goes(
     carry = StagedCarry(edit, ask, class_plan(ask.values, layers=bool(ask.layers)), base=room)
     try:
         carry.run(ask.values)
-        if beyond_fair(_judged(edit, before)[0]) and not ask.accept:
+        if beyond_fair(_judged(edit, before)[0], edit.state) and not ask.accept:
             return False
         if in_full:
             settle_plan(carry, room, None)  # without targets
     except AssocHullError:
         return False
-    return not in_full or ask.accept or not beyond_fair(_judged(edit, before)[0])
+    return not in_full or ask.accept or not beyond_fair(_judged(edit, before)[0], edit.state)
 
 
 def _without(ask: VariationRequest, name: str) -> VariationRequest:

@@ -164,7 +164,7 @@ def _refuse_unfair(
     edit: Transaction, ask: VariationRequest, room: AdmissibleValues, fairness: FairnessComparison
 ) -> None:
     """Refuse a hull that no one would take for its lines, with the values that would be fair."""
-    beyond = beyond_fair(fairness)
+    beyond = beyond_fair(fairness, edit.state)
     if not beyond:
         return
     lines = ", ".join(f"{name} {times:.3g} times" for name, times in beyond[:_NAMED])

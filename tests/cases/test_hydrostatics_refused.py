@@ -242,7 +242,7 @@ def test_a_section_that_stands_alone_is_refused_by_name(tmp_path: Path) -> None:
     """Half as broad as it is, on the slope of the fore body."""
     file = table_file(tmp_path, supply_vessel, STATIONS, 49.6)
     hull = ah.read(file, length=60.0, draught=5.0, deck="closed")
-    with pytest.raises(ah.errors.BadInputError, match=r"ST 16\.5333 has .* m2 where its neigh"):
+    with pytest.raises(ah.errors.BadInputError, match=r"ST 49\.6 has .* m2 where its neigh"):
         hull.hydrostatics()
 
 
@@ -254,7 +254,7 @@ def test_a_section_that_stands_alone_among_parallel_ones_is_refused_at_import(
     with pytest.raises(ah.errors.NotSoundError, match="station 31: its section is 50 %"):
         ah.read(file, length=60.0, draught=5.0, deck="closed")
     hull = ah.read(file, length=60.0, draught=5.0, deck="closed", accept=True)
-    with pytest.raises(ah.errors.BadInputError, match=r"ST 10\.3333 has a kink"):
+    with pytest.raises(ah.errors.BadInputError, match=r"ST 31 has a kink"):
         hull.hydrostatics()
 
 

@@ -267,10 +267,21 @@ class LineReport:
 
 @attrs.frozen
 class AdoptionReport:
-    """What adoption made of the given lines; notes say what was assumed or left out."""
+    """What adoption made of the given lines; notes say what was assumed or left out.
+
+    Attributes
+    ----------
+    lines : tuple of LineReport
+        Curve by curve.
+    notes : tuple of str
+        What was assumed, and what was left out.
+    unused : tuple of str
+        Numbers of the file that the net has no place for: whoever drew them should know.
+    """
 
     lines: tuple[LineReport, ...]
     notes: tuple[str, ...]
+    unused: tuple[str, ...] = ()
 
     @property
     def worst(self) -> LineReport:

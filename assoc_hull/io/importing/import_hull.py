@@ -185,6 +185,8 @@ def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, Import
         )
         besides = tuple(map(str, grouped(notes.suspicions)))
         raise NotSoundError(path.name, tuple(map(str, found)), suspicions=besides) from error
+    unused = (Note("deck edge", "the table", each) for each in adoption.unused)
+    notes = attrs.evolve(notes, suspicions=(*notes.suspicions, *unused))
     return state, ImportReport(notes, adoption, Verdict(), table=table, frame=frame)
 
 

@@ -576,7 +576,8 @@ def net_from_table(
         # Of the shipped Series 60 the ends are explained where she is made.
         stern, stem = completion.stern, completion.stem
         beyond = _drawn_ends(table, at_full_size(table), stern, stem) if straight else ()
-        return state, attrs.evolve(report, notes=(*beyond, *_level_deck(table), *report.notes))
+        unused = tuple(_level_deck(table))
+        return state, attrs.evolve(report, notes=(*beyond, *report.notes), unused=unused)
     except (BadInputError, CoincidentPointsError, TooFewPointsError) as error:
         ends = _known_ends(table)
         state, report = net_of_lines(table, ship, tolerances, ends)
@@ -600,10 +601,10 @@ def _level_deck(table: OffsetTable) -> Iterator[str]:
     top, low, high = table.z[-1], np.nanmin(table.deck_height), np.nanmax(table.deck_height)
     if max(high - top, top - low) > _UPRIGHT:
         yield (
-            f"assumed: deck edge: the table: level at its highest waterline, z = {top:.6g} m: its "
-            f"deck at {low:.6g} to {high:.6g} m is not used, because the rules that close stem, "
-            "stern and flats know no sheer; set it with sheer_fore and sheer_aft (vary), or give "
-            "her as lines"
+            f"its deck at {low:.6g} to {high:.6g} m is not used: the rules that close stem, stern "
+            f"and flats know no sheer and end at the highest waterline, z = {top:.6g} m, as a "
+            "level deck edge; give her as lines to have it as drawn (vary with sheer_fore and "
+            "sheer_aft gives her sheer, and stretches all lines above the draught for it)"
         )
 
 

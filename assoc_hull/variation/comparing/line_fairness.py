@@ -20,11 +20,12 @@ Examples
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
@@ -34,8 +35,10 @@ from assoc_hull.geometry.fairness.combs import (
     sampled_curvatures,
 )
 from assoc_hull.geometry.splines.arc_length import arc_length
+from assoc_hull.geometry.splines.distance import closest_points
 from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.geometry.splines.segments import sample
+from assoc_hull.model.network import curve_data
 from assoc_hull.model.tables import HullState
 
 __all__ = [
@@ -43,6 +46,7 @@ __all__ = [
     "FairnessComparison",
     "ImagedLines",
     "LineFairness",
+    "comb_within",
     "compare_fairness",
     "measure_fairness",
 ]
@@ -378,6 +382,69 @@ def measure_fairness(
         )
         for line, each, length in zip(wanted, found, lengths.tolist(), strict=True)
     }  # fmt: skip
+
+
+def comb_within(
+    state: HullState, line: LineFairness, tolerance: float, enough: float = 0.0
+) -> float:
+    """Give the least comb integral, 1/m3, of a line drawn through fewer of its points.
+
+    None of the others may be left by more than a tolerance, m. Two points some millimetres apart
+    bend a line sharply though it moves by less than a pencil's breadth; through one of them it is
+    the same line to the eye. At most `enough` is as good as the least.
+    """
+    number = next(i for i in state.live("lines").tolist() if state.lines.key[i] == line.key)
+    found = 0.0
+    for curve in state.curves_of(number):
+        data, made = curve_data(state, np.array([curve])), state.spline(curve)
+        best = _seen_comb(made, line.views)
+        # A curve that is made by more than its points stays what it is.
+        if np.allclose(_seen_comb(loft(data), line.views), best, rtol=1e-6, atol=0.0):
+            for each in _thinner(data, tolerance):
+                best = min(best, _seen_comb(loft(each), line.views))
+                if found + best <= enough:
+                    break
+        found += best
+    return found
+
+
+def _seen_comb(spline: SplineBatch, views: FloatArray) -> float:
+    """Give the comb integral of a curve, summed over the planes in which it is seen."""
+    return float(comb_integrals(SplineBatch.join([spline] * len(views)), views).sum())
+
+
+def _thinner(data: CurveData, tolerance: float) -> Iterator[CurveData]:
+    """Give a curve through one point less each time, as long as it stays within a tolerance."""
+    keep = _one_less(data, np.ones(len(data.xyz), np.bool_), tolerance)
+    while keep is not None:
+        yield _through(data, keep)
+        keep = _one_less(data, keep, tolerance)
+
+
+def _one_less(
+    data: CurveData, keep: NDArray[np.bool_], tolerance: float
+) -> NDArray[np.bool_] | None:
+    """Leave out the point nearest to a neighbour that may go; None where none may."""
+    rows = np.flatnonzero(keep)
+    step = np.sqrt((np.diff(data.xyz[rows], axis=0) ** 2).sum(axis=1))
+    for i in np.argsort(np.minimum(step[:-1], step[1:]), kind="stable").tolist():
+        row = rows[i + 1]
+        if data.kind[row] != PointKind.SMOOTH:
+            continue
+        fewer = keep.copy()
+        fewer[row] = False
+        _, _, away = closest_points(loft(_through(data, fewer)), 0, data.xyz[~fewer])
+        if away.max() <= tolerance:
+            return fewer
+    return None
+
+
+def _through(data: CurveData, keep: NDArray[np.bool_]) -> CurveData:
+    """Give a curve through some of its points."""
+    start = np.array([0, int(keep.sum())])
+    return CurveData(
+        start, data.xyz[keep], data.kind[keep], data.direction[keep], data.end_kind, data.end_vector
+    )
 
 
 def _summed(

@@ -14,8 +14,9 @@ from assoc_hull.cli import main
 from assoc_hull.errors import FoldError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.carrying.admissible_values import list_parameters
-from assoc_hull.variation.comparing.line_fairness import ImagedLines
+from assoc_hull.variation.comparing.line_fairness import ImagedLines, comb_within, measure_fairness
 from assoc_hull.variation.parameters.value_limits import fair_end
+from tests.long_forms import long_form
 
 FAR = {"draught": 15.4, "breadth": 90.0}
 """Within the interval in which nothing folds, and far beyond what any ship is."""
@@ -102,3 +103,34 @@ def test_a_fair_end_is_the_last_value_that_is_fair(now: float, end: float) -> No
     found = fair_end(lambda value: 2.0 * math.log(abs(value)), now, end)
     assert 0.95 * 2.0 < abs(found) <= 2.0
     assert fair_end(lambda value: 0.0, now, end) == end
+
+
+@pytest.mark.parametrize(("off", "seen"), [(1e-4, False), (3e-2, True)])
+def test_a_bend_between_points_close_together_counts_where_it_leaves_the_tolerance(
+    off: float, seen: bool
+) -> None:
+    """20 mm beside a point a tenth of a millimetre makes a comb that 30 mm make, seen by nobody."""
+    hull = ah.examples.wigley()
+    state = hull.document.state
+    [curve] = hull.groups["waterlines"].lines["WL 2.5"].curves
+    before = measure_fairness(state)
+    line = next(each for each in before.values() if each.name == "WL 2.5")
+    beside = curve.points[len(curve.points) // 2].position + np.array([0.02, off, 0.0])
+    with hull.edit("a point close to another") as edit:
+        edit.insert(curve, beside, lead=False)
+    after = measure_fairness(hull.document.state, like=before)[line.key]
+    assert after.comb > 100.0 * line.comb
+    within = comb_within(hull.document.state, after, hull.document.state.tolerances.adoption)
+    assert (within > 100.0 * line.comb) is seen
+    assert within <= after.comb
+
+
+@long_form
+def test_a_section_that_is_fair_within_the_tolerance_is_no_reason_to_refuse(dtc: ah.Hull) -> None:
+    """The end of the flat comes 18 mm beside a buttock: a comb 280 times the parent's."""
+    values = {
+        "bulb_half_breadth": 3.56557, "parallel_body_start": 165.784, "sheer_fore": 0.0,
+        "transom_half_breadth": 26.575, "parallel_body_end": 179.097, "flat_of_bottom": 20.2599,
+    }  # fmt: skip
+    report = dtc.vary(set=values).report
+    assert any("ST 165.14 (28" in note for note in report.notes)

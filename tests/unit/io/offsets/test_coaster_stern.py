@@ -79,20 +79,23 @@ def test_lines_that_end_on_no_profile_are_told_how_she_gets_one(tmp_path: Path) 
     assert whole.mesh().volume > 1000.0
 
 
-def test_a_sheer_that_is_not_drawn_is_told_with_what_to_do(tmp_path: Path) -> None:
-    """The deck edge of a table that is completed is level; the note says so, and the way out."""
+def test_a_sheer_that_is_not_drawn_is_a_suspicion_with_what_to_do(tmp_path: Path) -> None:
+    """What somebody typed is not used: that is no assumption; the ways out are told, with cost."""
     head = HEAD.replace("wl_4\n", "wl_4,sheer,y_deck\n")
     body = "".join(f"\n{row},{4.2 + 0.03 * (k - 7) ** 2:.2f},{row.split(',')[-1]}"
                    for k, row in enumerate(BODY.split()))  # fmt: skip
     hull = coaster(tmp_path, "0,,,,,,0,1.95,6.1,2.2", head, body + "\n")
     assert hull.adoption is not None
-    [note] = [note for note in hull.adoption.notes if note.startswith("assumed: deck edge:")]
-    assert "z = 4 m: its deck at 4.2 to 6.1 m is not used" in note
+    [note] = [each for each in hull.adoption.notes if each.startswith("suspicion: deck edge:")]
+    assert "its deck at 4.2 to 6.1 m is not used" in note
+    assert "at the highest waterline, z = 4 m, as a level deck edge" in note
+    assert "stretches all lines above the draught" in note
+    assert any(each.startswith("verdict: sound with suspicions") for each in hull.adoption.notes)
     sheered = hull.vary(set={"sheer_fore": 0.5, "sheer_aft": 0.3}).hull
     assert sheered.measure()["sheer_fore"] == pytest.approx(0.5, abs=1e-6)
     plain = coaster(tmp_path, "0,,,,,,0,1.95")
     assert plain.adoption is not None
-    assert not [note for note in plain.adoption.notes if note.startswith("assumed: deck edge:")]
+    assert not [each for each in plain.adoption.notes if "deck edge:" in each]
 
 
 def test_a_coaster_is_drawn_no_broader_than_she_is(tmp_path: Path) -> None:
