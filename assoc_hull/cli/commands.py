@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import difflib
 import importlib
+import re
 import shutil
 import sys
 import textwrap
@@ -76,10 +77,14 @@ class _Parser(argparse.ArgumentParser):
         if any(each.startswith("=") or each.endswith("=") for each in rest):
             return "; write NAME=VALUE without blanks around the sign"
         if not unknown:
+            takes = any("NAME=VALUE" in str(action.metavar) for action in self._actions)
+            if takes and len(rest) > 1 and re.fullmatch(r"[-+]?[\d.,]+[a-z%]*", rest[1]):
+                return f"; write {rest[0]}={rest[1]}"
             return "; options stand behind all values"
-        options = [each for action in self._actions for each in action.option_strings]
-        near = difflib.get_close_matches(unknown[0], options, 3, 0.6)
-        meant = " or ".join(f"'{each}'" for each in near)
+        # Whoever types --KG means --kg.
+        options = {each.lower(): each for action in self._actions for each in action.option_strings}
+        near = difflib.get_close_matches(unknown[0].lower(), list(options), 3, 0.6)
+        meant = " or ".join(f"'{options[each]}'" for each in near)
         return f"; did you mean {meant}?" if meant else "; there is no such option"
 
     def error(self, message: str) -> NoReturn:

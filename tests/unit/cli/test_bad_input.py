@@ -39,6 +39,8 @@ def error_of(arguments: list[object], capsys: pytest.CaptureFixture[str], code: 
         (["paint"], "'paint'"),
         (["info"], "HULL"),
         (["info", "a", "b"], "arguments: b; options stand behind all values, in assoc-hull info"),
+        (["vary", "a", "breadth", "10.3"], "breadth 10.3; write breadth=10.3, in assoc-hull vary"),
+        (["report", "a", "-o", "a.pdf", "--KG", "3"], "--KG 3; did you mean '--kg'?"),
         (
             ["jumboise", "a", "3", "--dry-run"],
             "--dry-run; there is no such option, in assoc-hull jumboise",
