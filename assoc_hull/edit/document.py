@@ -681,7 +681,9 @@ class Document:
         except TypeError:
             wanted = 0
         if not 1 <= wanted <= len(steps):
-            what = f"{shown(count)} steps were asked and there are {len(steps)} to {act}"
+            there = f"there {'is' if len(steps) == 1 else 'are'} {len(steps)} to {act}"
+            asked = "1 step was" if count == 1 else f"{shown(count)} steps were"
+            what = f"{asked} asked and {there}"
             remedy = (
                 f"give a number from 1 to {len(steps)}" if steps else f"there is nothing to {act}"
             )

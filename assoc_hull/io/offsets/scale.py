@@ -180,12 +180,13 @@ def _normalised(
 ) -> OffsetScale:  # fmt: skip
     length, breadth, draught = sizes
     named = {"length": length, "breadth": breadth, "draught": draught}
-    missing = [f"{name}=" for name, value in named.items() if value is None]
+    missing = [name for name, value in named.items() if value is None]
     if length is None or breadth is None or draught is None:
         raise BadInputError(
-            f"the table is normalised and {' '.join(missing)} is not known",
+            f"the table is normalised and {' and '.join(missing)} "
+            f"{'is' if len(missing) == 1 else 'are'} not known",
             source,
-            f"give {' and '.join(missing)} in m",
+            f"give {' and '.join(f'{name}=' for name in missing)} in m",
         )
     up = given.z or told.z or height_unit("normalised", printed, breadth, draught, book)
     along = given.x or told.x or "normalised"

@@ -424,7 +424,7 @@ def test_bad_input_is_refused_with_place_and_remedy(text: str, message: str) -> 
         ({"breadth": float("nan")}, "breadth is nan"),
         ({"unit": "feet"}, "'feet' is unknown"),
         ({"station_zero": "bow"}, "station_zero is 'bow'"),
-        ({"unit": "normalised", "draught": None}, "draught= is not known"),
+        ({"unit": "normalised", "draught": None}, "draught is not known"),
         ({"breadth": 5.0}, "the unit cannot be told"),
     ],
 )
