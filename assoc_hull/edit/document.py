@@ -682,7 +682,8 @@ class Document:
             wanted = 0
         if not 1 <= wanted <= len(steps):
             there = f"there {'is' if len(steps) == 1 else 'are'} {len(steps)} to {act}"
-            asked = "1 step was" if count == 1 else f"{shown(count)} steps were"
+            # An array has no one truth: the number is asked, not what was given.
+            asked = "1 step was" if wanted == 1 else f"{shown(count)} steps were"
             what = f"{asked} asked and {there}"
             remedy = (
                 f"give a number from 1 to {len(steps)}" if steps else f"there is nothing to {act}"
