@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -33,12 +34,12 @@ from assoc_hull.cli.edits import open_to_change
 from assoc_hull.cli.hull_words import edit_words
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import UsageError, check_other_target, check_target
-from assoc_hull.errors import BadInputError, RefusedEditError
+from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError
 from assoc_hull.hull import Hull
 from assoc_hull.hull.sources import open as open_hull
 
 if TYPE_CHECKING:
-    from assoc_hull.hull.variants import Jumboised, Shifted
+    from assoc_hull.hull.variants import Jumboised, Shifted, Variation
     from assoc_hull.variation.faired_followers import FairedFollowers
     from assoc_hull.variation.vary import VariationReport
 
@@ -214,12 +215,18 @@ def _try(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
 
 
 def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
-    hull, found = vary_into_file(
-        arguments, "varying",
-        lambda hull: hull.vary_by(script, ship=_ship(arguments, script, hull), in_place=True),
-    )  # fmt: skip
+    afloat = list[_Afloat | None]()
+
+    def act(hull: Hull) -> Variation:
+        afloat.append(_Afloat.of(hull))
+        return hull.vary_by(script, ship=_ship(arguments, script, hull), in_place=True)
+
+    hull, found = vary_into_file(arguments, "varying", act)
     report, saved = found.report, str(arguments.out or arguments.hull)
-    told = [*_variation_words(report), edit_words(hull, report.edit), f"written: {saved}"]
+    told = [
+        *_variation_words(report), *_afloat_words(afloat[0], _Afloat.of(hull)),
+        edit_words(hull, report.edit), f"written: {saved}",
+    ]  # fmt: skip
     emit(arguments, _variation_facts(report, hull.fingerprint, saved), "\n".join(told))
     return 0
 
@@ -244,6 +251,32 @@ def _variation_words(report: VariationReport) -> Iterator[str]:
     if report.faired is not None:
         yield f"  {report.faired}"
     yield from (f"  {each}" for each in report.notes)
+
+
+@attrs.frozen
+class _Afloat:
+    """What a designer asks first of a variant: volume (m3) and LCB (m from AP), upright."""
+
+    volume: float
+    lcb: float
+
+    @classmethod
+    def of(cls, hull: Hull) -> _Afloat | None:
+        """Measure a hull at its design draught; None where it has no hydrostatics."""
+        with suppress(AssocHullError):
+            found = hull.hydrostatics(estimate=False)
+            return cls(found.volume, found.lcb)
+        return None
+
+
+def _afloat_words(before: _Afloat | None, after: _Afloat | None) -> Iterator[str]:
+    """Say how both have changed: also where neither was asked for, both do."""
+    if before is not None and after is not None:
+        change = 100 * (after.volume / before.volume - 1)
+        yield (
+            f"  afloat: volume {before.volume:.6g} -> {after.volume:.6g} m3 ({change:+.2f} %), "
+            f"lcb {before.lcb:.6g} -> {after.lcb:.6g} m"
+        )
 
 
 def _ship(arguments: argparse.Namespace, script: dict[str, Any], hull: Hull) -> str | None:

@@ -73,17 +73,19 @@ def folds_outside(vmap: VariationMap, box: FloatArray) -> tuple[str, ...]:
     return (f"fold_outside_hull: the map folds at x={x:.3f} z={z:.3f}, where there is no hull",)
 
 
-def went_along(before: FloatArray, state: HullState) -> tuple[str, ...]:
+def went_along(before: FloatArray, length: float, state: HullState) -> tuple[str, ...]:
     """Give notes on lines that went with the map, where names may say a height or a place.
 
     Parameters
     ----------
     before : (l,), m
         Offsets of the planes of all lines.
+    length : float, m
+        Lpp before: a numbered section stands at a part of it.
     state : HullState
         The hull afterwards.
     """
-    level, place = list[int](), list[int]()
+    level, place, numbered = list[int](), list[int](), list[int]()
     for line in state.live("lines").tolist():
         if state.lines.boundary[line] >= 0:
             continue
@@ -91,8 +93,32 @@ def went_along(before: FloatArray, state: HullState) -> tuple[str, ...]:
             level.append(line)
         elif _says(state.lines.name[line], float(before[line])):
             place.append(line)
+        else:
+            numbered.append(line)
     kinds = ("waterlines and buttocks", level), ("sections named by their place", place)
-    return tuple(note for kind, lines in kinds for note in _kept_names(kind, lines, before, state))
+    kept = (note for kind, lines in kinds for note in _kept_names(kind, lines, before, state))
+    went = [each for each in numbered if state.lines.offset[each] != before[each]]
+    scaled = before * (state.particulars.length / length)
+    return *kept, *_off_their_numbers(went, scaled, state)
+
+
+def _off_their_numbers(
+    went: Sequence[int], scaled: FloatArray, state: HullState
+) -> tuple[str, ...]:
+    """Tell of numbered sections that went elsewhere than to their parts of the length."""
+    lines = np.array(went, np.int64)
+    shifts = state.lines.offset[lines] - scaled[lines]
+    count = int(np.count_nonzero(np.abs(shifts) > _SEEN))
+    if not count:
+        return ()
+    farthest = int(np.nanargmax(np.abs(shifts)))
+    name, at = state.lines.name[lines[farthest]], state.lines.offset[lines[farthest]]
+    return (
+        f"{counted(count, 'section')} moved along the ship and kept "
+        f"{'its number' if count == 1 else 'their numbers'}, {name} farthest, by "
+        f"{shifts[farthest]:+.3f} m to {at:.3f} m (stations='x', --stations x, leaves sections "
+        "where they are)",
+    )
 
 
 def _kept_names(
@@ -429,7 +455,7 @@ def vary_document(
             if name in parent.absent:
                 raise cannot_vary(name, parent.absent[name])
         room.check(ask.values)
-        levels = edit.state.lines.offset.data.copy()
+        levels, length = edit.state.lines.offset.data.copy(), edit.state.particulars.length
         beside = moved_by_ratios(
             parent, edit.state.rows.xyz[edit.state.live("rows")], ask.values, ask.layout
         )
@@ -453,7 +479,7 @@ def vary_document(
         left = left_values(document, ask, now)
         broad = drawn_breadth(measured.anchors["breadth"]) if "breadth" in found.values else ()
         beyond = folds_outside(found.carry.map, room.box)
-        along = went_along(levels, edit.state)
+        along = went_along(levels, length, edit.state)
         if ship is not None and edit.changes:
             # In the same step: undo gives the parent back with her name.
             called = attrs.evolve(edit.state.particulars, name=ship)

@@ -16,6 +16,9 @@ __all__ = ["AimReport", "make_report"]
 _WORTH = 0.1
 """Targets that have less than this part in a combination are not named with it."""
 
+_NEARLY_ONE = 1e3
+"""The condition number from which targets are nearly one target, so that changes grow large."""
+
 
 @attrs.frozen(eq=False, repr=False)
 class AimReport(ShownAsText):
@@ -113,9 +116,12 @@ class AimReport(ShownAsText):
         what = "met" if self.reached else "best compromise"
         # of targets that are met the residual is rounding
         rest = "" if self.reached else f", residual {self.residual:.1e}"
+        # One target has none, and of a few that are independent it tells a designer nothing.
+        if self.condition >= _NEARLY_ONE:
+            rest += f"; the targets hardly differ (condition number {self.condition:.3g})"
         return (
-            f"aim: {what} after {count} step{'s' * (count != 1)}{rest}; condition number of the "
-            f"targets {self.condition:.3g}, all changes {self.change:.4g} times the usual ones"
+            f"aim: {what} after {count} step{'s' * (count != 1)}{rest}; "
+            f"all changes together are {self.change:.4g} times the usual ones"
         )
 
     def _reached(self) -> list[str]:

@@ -105,7 +105,7 @@ def apply_map(
     state, anew = edit.state, redraw_features(edit.state, vmap, radii)
     space = anew.space
     chosen = choose_drivers(state, space, drivers, stations, follow=follow)
-    levels = section_planes(state, vmap.layers) if stations == "number" else None
+    levels = section_planes(state, vmap.layers if stations == "number" else ())
     added = transform(
         edit, space, chosen.lines, follow=chosen.follow, levels=levels, tolerance=tolerance,
         reshape=anew.settle, particulars=particulars, lines_may_go=True,

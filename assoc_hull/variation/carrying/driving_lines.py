@@ -300,6 +300,8 @@ def _moved(layer: Layer, x: FloatArray) -> FloatArray:
 def section_planes(state: HullState, layers: Iterable[Layer]) -> dict[int, float]:
     """Give where the planes of sections go, by the number of the line, m from AP.
 
+    By no layers they stay, also where waterlines and buttocks follow.
+
     Parameters
     ----------
     state : HullState

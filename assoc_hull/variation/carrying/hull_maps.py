@@ -193,7 +193,7 @@ class HullMaps:
         vmap = self.map(amplitudes) if vmap is None else vmap
         anew = redraw_features(state, vmap, self._radii(amplitudes), self.room.had)
         space = anew.space
-        levels = section_planes(state, vmap.layers) if self.ask.stations == "number" else None
+        levels = section_planes(state, vmap.layers if self.ask.stations == "number" else ())
         planes = carry_planes(
             state, space, lines, follow=follow, levels=levels, samples=self.room.samples
         )

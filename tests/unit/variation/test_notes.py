@@ -41,3 +41,17 @@ def test_sections_named_by_their_place_are_told_where_they_are() -> None:
         edit.rename("ST 3", "frame 75.0")
     told = "2 sections named by their place went along and kept their names"
     assert f"{told}: frame 75.0 is at 76.5 m" in parent.vary(set=asked).report.notes
+
+
+def test_numbered_sections_that_moved_along_the_ship_are_told() -> None:
+    """A number says a part of the length; nothing is told where all stand at theirs, or stay."""
+    parent = ah.examples.wigley(stations=5, waterlines=4)
+    asked = {"fore_shift": 0.5}
+    (told,) = [each for each in parent.vary(set=asked).report.notes if "kept its number" in each]
+    assert told.startswith("1 section moved along the ship and kept its number, ST 3 farthest")
+    longer = {"length": 102.0}
+    for other in (
+        parent.vary(set=asked, stations="x"), parent.vary(set=longer),
+        parent.vary(set=longer, stations="x"),
+    ):  # fmt: skip
+        assert not [each for each in other.report.notes if "number" in each]

@@ -150,3 +150,20 @@ def test_a_nudge_to_what_is_asked_for_is_as_fair_as_maps_with_corrected_aims(
     assert quick.report.added_sign_changes <= full.report.added_sign_changes
     assert quick.report.worst_comb == pytest.approx(full.report.worst_comb, rel=0.02)
     assert max(each.length for each in quick.hull.compare(full.hull).lines) < 2e-3
+
+
+@pytest.mark.parametrize("planes", ["follow", "stay"])
+@pytest.mark.parametrize("asked", [{"fore_shift": 0.5}, {"length": 103.0}, {"draught": 7.0}])
+def test_sections_that_stay_stay_to_the_bit(
+    wigley: ah.Hull, asked: dict[str, float], planes: Planes
+) -> None:
+    """Whatever waterlines and buttocks do."""
+
+    def places(hull: ah.Hull) -> dict[str, float]:
+        lines = hull.state.lines
+        live = hull.state.live("lines").tolist()
+        named = [each for each in live if lines.name[each].startswith("ST ")]
+        return {str(lines.name[each]): float(lines.offset[each]) for each in named}
+
+    was = places(wigley)
+    assert places(wigley.vary(set=asked, stations="x", planes=planes).hull) == was
