@@ -217,7 +217,7 @@ def _try(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
 def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
     afloat = list[_Afloat | None]()
 
-    def act(hull: Hull) -> Variation:
+    def act(hull: Hull) -> Variation[Hull]:
         afloat.append(_Afloat.of(hull))
         return hull.vary_by(script, ship=_ship(arguments, script, hull), in_place=True)
 

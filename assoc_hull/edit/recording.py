@@ -295,6 +295,7 @@ _WORDS = {
     "straighten": "the straightening of {line}",
     "round": "the rounding of {line}",
     "transform": "the transformation",
+    "set_particulars": "the new particulars",
     "tunnel": "the tunnel {name}",
     "set_tunnel": "the new axis or radius of {name}",
     "remove_tunnel": "the removal of {name}",

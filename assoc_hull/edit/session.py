@@ -873,6 +873,42 @@ class Edit:
         _rename.rename(self._transaction, self._given.place(obj), name)
 
     @recorded
+    def set_particulars(
+        self, *, draught: float | None = None, deck: Literal["open", "closed"] | None = None
+    ) -> None:
+        """Say at which draught the ship is to float, and whether she has a deck; no line moves.
+
+        `Hull.vary` changes the form with the draught, and length, breadth and depth, which are
+        those of the lines; `rename` gives another name.
+
+        Parameters
+        ----------
+        draught : float or None, m
+            The moulded design draught, from the base line; None: as it is.
+        deck : {"open", "closed"} or None
+            Closed: a deck between the deck edges keeps water out; None: as it is.
+
+        Raises
+        ------
+        OutOfRangeError
+            A draught above the highest point of the hull.
+        BadInputError
+            Nothing is given; another word for the deck; a draught for lines that are made from
+            form parameters, which hold below their design draught.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("scantling draught, deck") as edit:
+        ...     edit.set_particulars(draught=6.8, deck="closed")
+        >>> hull.particulars.draught, hull.particulars.deck
+        (6.8, 'closed')
+        """
+        with self._transaction.whole() as held:
+            _rename.set_particulars(held, draught, deck)
+
+    @recorded
     def add_line(
         self, group: Group | str, position: float | tuple[float, float], name: str | None = None
     ) -> Line:

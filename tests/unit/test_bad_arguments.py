@@ -169,6 +169,7 @@ EDIT: dict[str, Given] = {
     "regroup": {"group": "stern lines", "lines": [LINE]},
     "ungroup": {"group": "stern lines"},
     "rename": {"obj": LINE, "name": "low"},
+    "set_particulars": {"draught": 6.0, "deck": "closed"},
     "add_line": {"group": "waterlines", "position": 2.0, "name": "low"},
     "shift_line": {"line": LINE, "position": 2.4},
     "remove_line": {"line": LINE},

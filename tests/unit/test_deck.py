@@ -185,3 +185,55 @@ def test_a_saved_hull_has_one_already(tmp_path: Path, capsys: pytest.CaptureFixt
         ah.read(path, deck="open")
     assert main(["import", str(path), "-o", str(tmp_path / "o.hull"), "--deck", "open"]) == 2
     assert "deck cannot be given" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("ship", ["wigley", "series60_70", "bulk_carrier"])
+def test_what_is_read_after_an_edit_of_the_particulars_is_that_of_the_file(
+    ship: str, request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
+    """Nothing that was measured before stays; no line moves; undo brings all back."""
+    kept = ah.examples.wigley() if ship == "wigley" else request.getfixturevalue(ship)
+    kept.save(tmp_path / "kept.hull")
+    hull = ah.open(tmp_path / "kept.hull")
+
+    def afloat(some: ah.Hull) -> tuple[float | None, ...]:
+        found = some.hydrostatics(estimate=False)
+        return found.volume, found.lcb, found.kmt, found.waterplane_area, found.wetted_surface
+
+    was, told = hull.particulars, afloat(hull)
+    before = hull.fingerprint
+    with hull.edit("open her") as edit:
+        edit.set_particulars(draught=0.9 * was.draught, deck="open")
+    assert edit.report is not None
+    assert not edit.report.relofted
+    assert any("the deck is open now" in each for each in edit.report.notes)
+    hull.save(tmp_path / "a.hull")
+    again = ah.open(tmp_path / "a.hull")
+    assert hull.particulars == attrs.evolve(was, draught=0.9 * was.draught, deck="open")
+    assert afloat(hull) == afloat(again) != told
+    assert hull.measure() == again.measure()
+    kg = 0.5 * was.depth
+    assert str(hull.stability(kg=kg)) == str(again.stability(kg=kg))
+    assert not hull.verify()
+    hull.undo()
+    assert (hull.fingerprint, hull.particulars) == (before, was)
+    assert afloat(hull) == told
+
+
+def test_particulars_that_no_ship_has_are_refused() -> None:
+    """And the hull stays as it is."""
+    hull = ah.examples.wigley(stations=5, waterlines=4)
+    before = hull.fingerprint
+    for error, given in (
+        (ah.errors.OutOfRangeError, {"draught": 20.0}),
+        (ah.errors.BadInputError, {}),
+        (ah.errors.BadInputError, {"deck": "shut"}),
+        (ah.errors.BadInputError, {"draught": 0.0}),
+    ):
+        with pytest.raises(error), hull.edit("wrong") as edit:
+            edit.set_particulars(**given)
+        assert hull.fingerprint == before
+    ship = ah.examples.container_ship_225m()
+    formed = pytest.raises(ah.errors.BadInputError, match="made from form parameters")
+    with formed, ship.edit("draught") as edit:
+        edit.set_particulars(draught=9.0)

@@ -279,8 +279,9 @@ def stability_notes(
 
     `limit` as for `why_it_ends`; `side` to which the ship is judged: 1 starboard, -1 port.
     """
-    deck = "closed" if case.afloat.body.limits.closed else "open"
-    notes = [f"the deck is {deck}" + (f": {why_it_ends(0.0, limit)}" if limit is not None else "")]
+    notes = ["the deck is closed" if case.afloat.body.limits.closed else "the deck is open"]
+    if limit is not None:
+        notes[0] += f": {why_it_ends(0.0, limit)}; edit.set_particulars(deck='closed') closes it"
     if case.trim == "fixed":
         notes.append("trim is fixed: levers are those of the plane with the draughts' difference")
     notes.append("the weather criterion (2008 IS Code A 2.3) is not evaluated")

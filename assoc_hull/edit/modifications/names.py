@@ -1,4 +1,4 @@
-"""Giving lines, points and the hull other names, and groups of a designer's own.
+"""Giving lines, points and the hull other names and particulars, and groups of a designer's own.
 
 Groups of a designer's own: they hold lines of any family, and groups.
 """
@@ -11,19 +11,28 @@ from contextlib import contextmanager
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import plain_name, shown, word
+from assoc_hull.arguments import choice, plain_name, positive, shown, word
 from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.modifications.associations import ruled_crossings
 from assoc_hull.edit.modifications.switch_crossings import follow_ways
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError, NameTakenError
+from assoc_hull.errors import BadInputError, NameTakenError, OutOfRangeError
 from assoc_hull.model.address import ResolvedAddress
 from assoc_hull.model.attachments import attachment_names
 from assoc_hull.model.kinds import OWN
 from assoc_hull.model.links import crossing_ways, holders, live_group
-from assoc_hull.model.tables import HullState
+from assoc_hull.model.tables import DECKS, HullState
 
-__all__ = ["group", "regroup", "rename", "rename_hull", "rename_lines", "taken_names", "ungroup"]
+__all__ = [
+    "group",
+    "regroup",
+    "rename",
+    "rename_hull",
+    "rename_lines",
+    "set_particulars",
+    "taken_names",
+    "ungroup",
+]
 
 
 def rename(edit: Transaction, what: ResolvedAddress, name: object) -> None:
@@ -161,6 +170,40 @@ def rename_hull(edit: Transaction, name: object) -> None:
         raise BadInputError(f"the name {shown(name)}", "in rename", remedy)
     state = edit.state
     new = attrs.evolve(state.particulars, name=given)
+    edit.journal.set(state.settings.particulars, [0], [new])
+
+
+def set_particulars(edit: Transaction, draught: float | None, deck: str | None) -> None:
+    """Say the design draught (m), and whether the deck is open or closed; no line moves.
+
+    Raises
+    ------
+    BadInputError
+        Nothing is given, another word for the deck; the lines are made for their draught.
+    OutOfRangeError
+        A draught above the highest point of the hull.
+    """
+    where, state = "in set_particulars", edit.state
+    if draught is None and deck is None:
+        raise BadInputError("nothing is given", where, "give draught or deck")
+    new = state.particulars
+    if deck is not None:
+        choice(deck, "deck", DECKS, where)
+        new = attrs.evolve(new, deck=deck)
+        edit.pending.notes.append(f"the deck is {deck} now")
+    if draught is not None:
+        given = positive(draught, "draught", where)
+        top = float(state.rows.xyz[state.live("rows"), 2].max(initial=0.0))
+        if given > top:
+            why = "is above the highest point of the hull"
+            raise OutOfRangeError("draught", given, where, why, 0.0, top, "m")
+        if len(state.live("formed")) and given != new.draught:
+            # Areas of their definitions are those below the design draught.
+            what = "the lines are made from form parameters for their draught"
+            remedy = "vary the draught, or give one where it is asked, as hydrostatics(draught=...)"
+            raise BadInputError(what, where, remedy)
+        new = attrs.evolve(new, draught=given)
+        edit.pending.notes.append(f"the design draught is {given:.6g} m now")
     edit.journal.set(state.settings.particulars, [0], [new])
 
 

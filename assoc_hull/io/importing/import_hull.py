@@ -107,6 +107,8 @@ def _import(path: Path, wanted: ImportOptions, tell: Tell) -> tuple[HullState, I
         report = attrs.evolve(report, notes=own.added_to(report.notes))
     tell("checking", 0, 0)
     restored = own is not None and own.state is not None
+    if wanted.deck is None and not restored:
+        report = attrs.evolve(report, notes=_with_deck(report.notes, state))
     made = () if restored else make_latent_crossings(state)
     verdict = judge(
         state, path, report.notes, report.adoption, report.slices, report.frame, table=report.table
@@ -120,6 +122,14 @@ def _import(path: Path, wanted: ImportOptions, tell: Tell) -> tuple[HullState, I
     notes = (*verdict_notes(report.notes, verdict), *lcb, *mine)
     adoption = attrs.evolve(report.adoption, notes=notes)
     return state, attrs.evolve(report, verdict=verdict, adoption=adoption, own_notes=(*lcb, *mine))
+
+
+def _with_deck(notes: OffsetReport, state: HullState) -> OffsetReport:
+    """Add that an open deck is an assumption: what heels beyond its edge has no levers."""
+    if state.particulars.deck != DECKS[0]:
+        return notes
+    what = "open, as the file tells of none; give deck='closed' (--deck closed) if she has one"
+    return attrs.evolve(notes, assumptions=(*notes.assumptions, Note("deck", "the hull", what)))
 
 
 def _import_lines(path: Path, options: ImportOptions, tell: Tell) -> tuple[HullState, ImportReport]:

@@ -413,3 +413,16 @@ def test_findings_that_are_alike_are_one_with_all_places() -> None:
         "fold: ST 2: folds back on itself (cosine -0.5)",
     ]
     assert [each.where for each in verdict.suspicions] == ["the net; likewise ST 1, ST 3"]
+
+
+@pytest.mark.parametrize("deck", [None, "open", "closed"])
+def test_an_open_deck_that_nobody_asked_for_is_an_assumption(
+    deck: str | None, tmp_path: Path
+) -> None:
+    """No table tells of one; what heels beyond the edge of an open one has no levers."""
+    path = tmp_path / "table.csv"
+    path.write_text(wigley_table())
+    state, report = import_hull(path, ImportOptions(length=L, draught=T, deck=deck))
+    told = [str(each) for each in report.notes.assumptions if each.kind == "deck"]
+    assert [each.split(",")[0] for each in told] == ["deck: the hull: open"] * (deck is None)
+    assert state.particulars.deck == (deck or "open")
