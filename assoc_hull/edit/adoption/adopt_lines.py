@@ -580,20 +580,26 @@ def _over_notes(
 def _loft(maker: Maker) -> list[str]:
     """Loft; a crossing that its driver no longer reaches becomes an adopted point."""
     notes: list[str] = []
+    table = maker.state.rows
+    # Where a stem runs upright in the plane of a section, its passage may be the run's other end.
+    along = np.flatnonzero(table.alive.data & table.contact.data & (table.sign.data == 0))
+    given, near = table.xyz[along].copy(), maker.state.tolerances.coincident
     while True:
         missing = loft_all(maker.state, maker.journal)
+        away = np.abs(table.xyz[along] - given).max(axis=1, initial=0.0)
+        missing = np.union1d(missing, along[table.alive[along] & (away > near)])
         if not len(missing):
             return notes
+        places = dict(zip(along.tolist(), given, strict=True))
         for row in missing.tolist():
             notes.append(f"{address(maker.state, row)}: not reached, left out")
-            _release(maker, row)
+            _release(maker, row, places.get(row, table.xyz[row].copy()))
 
 
-def _release(maker: Maker, row: int) -> None:
-    """Take out a crossing; the curve it defined keeps an adopted point at its place."""
+def _release(maker: Maker, row: int, xyz: FloatArray) -> None:
+    """Take out a crossing; the curve it defined keeps an adopted point at its place (m)."""
     table = maker.state.rows
     curves = [curve for curve in table.reader[row].tolist() if curve >= 0]
-    xyz = table.xyz[row].copy()
     for curve in curves:
         point = maker.points([PointSpec(curve, xyz, Sort.ADOPTED)])[0]
         rows = maker.state.curves.rows[curve]

@@ -426,3 +426,31 @@ def test_an_open_deck_that_nobody_asked_for_is_an_assumption(
     told = [str(each) for each in report.notes.assumptions if each.kind == "deck"]
     assert [each.split(",")[0] for each in told] == ["deck: the hull: open"] * (deck is None)
     assert state.particulars.deck == (deck or "open")
+
+
+UPRIGHT = """station,0,0.5,1,2,3,4
+0,0,0,.2,1,2.6,3.4
+1,.2,1.5,2.6,3.6,4.2,4.5
+2,2,3.9,4.4,4.7,4.8,4.8
+3,3,4.5,4.75,4.8,4.8,4.8
+4,3.1,4.6,4.8,4.8,4.8,4.8
+5,3.1,4.6,4.8,4.8,4.8,4.8
+6,3,4.5,4.75,4.8,4.8,4.8
+7,2,3.9,4.4,4.7,4.8,4.8
+8,1,2.6,3.4,4.1,4.5,4.7
+9,.2,.9,1.5,2.2,2.9,3.6
+10,0,0,.1,.2,.4,1
+"""
+"""The stem stands upright at the last station up to .5 m, and rakes forward above."""
+
+
+def test_a_section_begins_where_an_upright_stem_leaves_its_plane(tmp_path: Path) -> None:
+    """At the upper end of the run, as the table says, whichever end the stem's passage counts."""
+    path = tmp_path / "coaster.csv"
+    path.write_text(UPRIGHT)
+    wanted = ImportOptions(length=50.0, draught=3.0, station_zero="ap")
+    state, report = import_hull(path, wanted)
+    assert not report.verdict.faults
+    lines = {str(state.lines.name[line]): line for line in state.live("lines").tolist()}
+    (curve,) = state.lines.curves[lines["ST 10"]]
+    assert state.rows.xyz[state.curves.rows[curve][0]].tolist() == [50.0, 0.0, 0.5]
