@@ -184,7 +184,7 @@ def _import_table(path: Path, options: ImportOptions) -> tuple[HullState, Import
     deck = options.deck or DECKS[0]
     ship = table_particulars(table, frame, deck)
     try:
-        state, adoption = net_from_table(table, deck=deck, particulars=ship, straight=True)
+        state, adoption = net_from_table(table, deck=deck, particulars=ship, imported=True)
     except AssocHullError as error:
         if not notes.faults:
             raise

@@ -537,7 +537,7 @@ def net_from_table(
     *,
     deck: str = "open",
     particulars: Particulars | None = None,
-    straight: bool = False,
+    imported: bool = False,
 ) -> tuple[HullState, AdoptionReport]:
     """Adopt a table of offsets; profile, ends and flats as for the Series 60 example.
 
@@ -555,9 +555,10 @@ def net_from_table(
         Closed: there is a deck between the deck edges; a table does not tell.
     particulars : Particulars or None
         None: those that the table tells, with this deck.
-    straight : bool
-        Lines off the flats run straight, too, between neighbours of their greatest offset, as
-        imports have it; the shipped Series 60 goes without.
+    imported : bool
+        As imports have it: lines off the flats run straight, too, between neighbours of their
+        greatest offset, sections turn in knuckles, and lines have the names of the table. The
+        shipped Series 60 goes without.
 
     Returns
     -------
@@ -572,10 +573,10 @@ def net_from_table(
     try:
         # Fits of borders know lengths: a short hull passes them at the size these hold for.
         completion = _completion(at_full_size(table))
-        state, report = adopt_completed(table, completion, ship, tolerances, straight=straight)
+        state, report = adopt_completed(table, completion, ship, tolerances, imported=imported)
         # Of the shipped Series 60 the ends are explained where she is made.
         stern, stem = completion.stern, completion.stem
-        beyond = _drawn_ends(table, at_full_size(table), stern, stem) if straight else ()
+        beyond = _drawn_ends(table, at_full_size(table), stern, stem) if imported else ()
         unused = tuple(_level_deck(table))
         return state, attrs.evolve(report, notes=(*beyond, *report.notes), unused=unused)
     except (BadInputError, CoincidentPointsError, TooFewPointsError) as error:

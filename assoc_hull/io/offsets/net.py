@@ -121,22 +121,22 @@ def net_from_offsets(
 
 def adopt_completed(
     table: OffsetTable, completion: Completion, ship: Particulars, tolerances: Tolerances | None,
-    *, straight: bool = False,
+    *, imported: bool = False,
 ) -> tuple[HullState, AdoptionReport]:  # fmt: skip
     """Adopt a table with its completion at full size, as of `at_full_size`.
 
-    `straight`: lines off the flats run straight, too, where they have one greatest offset,
+    `imported`: lines off the flats run straight, too, where they have one greatest offset,
     sections turn where they have a knuckle, and lines are named as the table names them.
     """
     factor, full = length_factor(table.length), at_full_size(table)
     flats = _FlatBorder(completion.side, full)
     sources = _boundaries(full, completion, flats)
     wet = [i for i in range(len(full.x)) if (full.half_breadth[i, 1:] > 0.0).any()]
-    stations, levels = _names(table) if straight else _names_of_shipped(table)
+    stations, levels = _names(table) if imported else _names_of_shipped(table)
     sources += [_closed_section(full, completion, flats, i, factor, stations[i]) for i in wet]
     inner = range(1, len(full.z) - 1)
     sources += [_closed_waterline(full, completion, flats, j, levels[j]) for j in inner]
-    if straight:
+    if imported:
         corners = knuckles_of_table(full)
         sources = [_with_knuckles(each, full, corners) for each in sources]
         sources = [_straight_at_greatest(each, full) for each in sources]

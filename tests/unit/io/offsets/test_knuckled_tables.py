@@ -61,7 +61,7 @@ def section_lines(text: str) -> dict[float, LineSource]:
 def test_a_level_flat_of_side_does_not_sink_between_its_corners() -> None:
     """Identical stations of a parallel body make identical sections, none of them folded."""
     text = table(CHAMFER, [0.0, 0.4, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0])
-    state = net_from_table(read_offsets(text, length=LENGTH, draught=DRAUGHT)[0], straight=True)[0]
+    state = net_from_table(read_offsets(text, length=LENGTH, draught=DRAUGHT)[0], imported=True)[0]
     sections = {
         str(state.lines.name.data[state.line_of(curve)]): sample(state.spline(curve), 16)[1][:, 1:]
         for curve in state.live("curves").tolist()
