@@ -477,23 +477,45 @@ def station_places(
     """
     if hints.frame_spacing is not None and zero != "fp":
         return stations * hints.frame_spacing
-    if length is None:
-        raise BadInputError(
-            "the stations are numbers and the length is not known",
-            source,
-            "give length= (Lpp in m), frame_spacing= if they are frames, or a column x_m",
-        )
-    if zero is None:
-        raise BadInputError(
-            "nothing says whether station 0 is at the aft or the forward perpendicular",
-            source,
-            "give station_zero='ap' or 'fp', or a comment '# station 0 = FP'; for numbers of "
-            "frames frame_spacing= in m, with which frame 0 is at the AP",
-        )
+    if length is None or zero is None:
+        raise _unplaced(stations, zero, hints, length, source)
     if hints.frame_spacing is not None:
         return length - stations * hints.frame_spacing
     x = stations * (length / _divisions(stations, hints, book, source))
     return x if zero == "ap" else length - x
+
+
+def _unplaced(
+    stations: FloatArray, zero: str | None, hints: OffsetHints, length: float | None, source: str
+) -> BadInputError:
+    """Give the error that tells all that numbered stations lack: nothing is asked for later."""
+    what, remedy = list[str](), list[str]()
+    if length is None:
+        what.append("the stations are numbers and the length is not known")
+        remedy.append("length= (Lpp in m)")
+    if zero is None:
+        what.append("nothing says whether station 0 is at the aft or the forward perpendicular")
+        remedy.append("station_zero='ap' or 'fp', or a comment '# station 0 = FP'")
+    if not hints.divisions and hints.frame_spacing is None and not _usual(stations):
+        what.append(_unusual(stations))
+        remedy.append("station_spacings=, how many lie between the perpendiculars")
+    return BadInputError(
+        "; ".join(what), source,
+        f"give {' and '.join(remedy)}; for numbers of frames frame_spacing= in m, with which frame 0 "
+        "is at the AP; or a column x_m in place of numbers, m from the AP",
+    )  # fmt: skip
+
+
+def _usual(stations: FloatArray) -> int | None:
+    """Give 20 or 10 where so many spacings lie between the perpendiculars, by the numbers alone."""
+    # Overhangs are shorter than 15 % of Lpp: stations beyond that belong to another count.
+    fitting = (each for each in (20, 10) if each in stations and stations.max() < 1.15 * each)
+    return next(fitting, None)
+
+
+def _unusual(stations: FloatArray) -> str:
+    low, high = stations.min(), stations.max()
+    return f"the stations run from {low:g} to {high:g}, neither 0 to 10 nor 0 to 20"
 
 
 def _divisions(stations: FloatArray, hints: OffsetHints, book: Notebook, source: str) -> int:
@@ -501,15 +523,13 @@ def _divisions(stations: FloatArray, hints: OffsetHints, book: Notebook, source:
         what = f"{hints.divisions} station spacings between the perpendiculars, as they say"
         book.assume("station numbers", "the comments", what, hints.divisions)
         return hints.divisions
-    for count in (20, 10):
-        if count in stations and stations.max() < 1.15 * count:
-            # Overhangs are shorter than 15 % of Lpp: stations beyond that belong to another count.
-            what = f"station {count} at the other perpendicular: it is the last full one"
-            book.assume("station numbers", "the table", what, count)
-            return count
+    count = _usual(stations)
+    if count is not None:
+        what = f"station {count} at the other perpendicular: it is the last full one"
+        book.assume("station numbers", "the table", what, count)
+        return count
     raise BadInputError(
-        f"the stations run from {stations.min():g} to {stations.max():g}, neither 0 to 10 nor "
-        "0 to 20",
+        _unusual(stations),
         source,
         "give station_spacings=, how many lie between the perpendiculars, or frame_spacing= in m "
         "if they are frames; or a column x_m, or a comment '# spacing: Lpp/<number of spacings>'",

@@ -4,6 +4,7 @@ import os
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import attrs
 import numpy as np
@@ -454,3 +455,22 @@ def test_a_section_begins_where_an_upright_stem_leaves_its_plane(tmp_path: Path)
     lines = {str(state.lines.name[line]): line for line in state.live("lines").tolist()}
     (curve,) = state.lines.curves[lines["ST 10"]]
     assert state.rows.xyz[state.curves.rows[curve][0]].tolist() == [50.0, 0.0, 0.5]
+
+
+@pytest.mark.parametrize("numbers", ["usual", "other"])
+def test_all_that_numbered_stations_lack_is_told_at_once(numbers: str, tmp_path: Path) -> None:
+    """Length, perpendicular and spacings: with what is named the table is read."""
+    path = tmp_path / "coaster.csv"
+    path.write_text(UPRIGHT if numbers == "usual" else UPRIGHT.replace("\n10,", "\n12,"))
+    given: dict[str, Any] = {"length": 50.0, "station_zero": "ap"}
+    given |= {} if numbers == "usual" else {"station_spacings": 12}
+    with pytest.raises(BadInputError) as told:
+        import_hull(path, ImportOptions(draught=3.0))
+    assert all(f"{name}=" in str(told.value) for name in given)
+    assert ("station_spacings=" in str(told.value)) == (numbers == "other")
+    for name in given:
+        left = {key: value for key, value in given.items() if key != name}
+        with pytest.raises(BadInputError, match=f"{name}="):
+            import_hull(path, ImportOptions(draught=3.0, **left))
+    read = import_hull(path, ImportOptions(draught=3.0, accept=True, **given))[0]
+    assert read.particulars.length == 50.0
