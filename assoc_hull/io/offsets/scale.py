@@ -501,8 +501,8 @@ def _unplaced(
         remedy.append("station_spacings=, how many lie between the perpendiculars")
     return BadInputError(
         "; ".join(what), source,
-        f"give {' and '.join(remedy)}; for numbers of frames frame_spacing= in m, with which frame 0 "
-        "is at the AP; or a column x_m in place of numbers, m from the AP",
+        f"give {' and '.join(remedy)}; for numbers of frames frame_spacing= in m, with which frame "
+        "0 is at the AP; or a column x_m in place of numbers, m from the AP",
     )  # fmt: skip
 
 
