@@ -134,6 +134,20 @@ class CurveData:
             np.zeros((1, 2, 3)) if end_vector is None else np.array(end_vector, np.float64)[None],
         )
 
+    def through(self, keep: NDArray[np.bool_]) -> CurveData:
+        """Give the curves through some of their points (n,); a curve of none is left out.
+
+        The end conditions are those that were: they hold at the ends that stay.
+        """
+        size = np.add.reduceat(keep.astype(np.int64), self.start[:-1])
+        some = np.flatnonzero(size)
+        start = np.zeros(len(some) + 1, np.int64)
+        np.cumsum(size[some], out=start[1:])
+        return CurveData(
+            start, self.xyz[keep], self.kind[keep], self.direction[keep], self.end_kind[some],
+            self.end_vector[some],
+        )  # fmt: skip
+
 
 @attrs.frozen(eq=False)
 class SplineBatch:

@@ -582,7 +582,7 @@ def thinned_net(
     short = np.repeat(size < 2, np.diff(data.start))
     keep |= short & ~np.repeat(without, np.diff(data.start))
     stay = np.flatnonzero(~without)
-    batch = loft(_taken(data, keep, stay))
+    batch = loft(data.through(keep))
     number = np.full(net.batch.count, -1)
     number[stay] = np.arange(len(stay))
     good = ~without[net.meets].any(axis=1)
@@ -621,20 +621,6 @@ def _points(
     fixed[data.start[:-1]] = fixed[data.start[1:] - 1] = True
     keep: NDArray[np.bool_] = (fixed | ~crossed) & ~without[own]
     return keep
-
-
-def _taken(data: CurveData, keep: NDArray[np.bool_], stay: IntArray) -> CurveData:
-    size = np.add.reduceat(keep.astype(np.int64), data.start[:-1])[stay]
-    start = np.zeros(len(stay) + 1, np.int64)
-    np.cumsum(size, out=start[1:])
-    return CurveData(
-        start,
-        data.xyz[keep],
-        data.kind[keep],
-        data.direction[keep],
-        data.end_kind[stay],
-        data.end_vector[stay],
-    )
 
 
 def _places(

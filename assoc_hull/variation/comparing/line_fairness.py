@@ -417,7 +417,7 @@ def _thinner(data: CurveData, tolerance: float) -> Iterator[CurveData]:
     """Give a curve through one point less each time, as long as it stays within a tolerance."""
     keep = _one_less(data, np.ones(len(data.xyz), np.bool_), tolerance)
     while keep is not None:
-        yield _through(data, keep)
+        yield data.through(keep)
         keep = _one_less(data, keep, tolerance)
 
 
@@ -433,18 +433,10 @@ def _one_less(
             continue
         fewer = keep.copy()
         fewer[row] = False
-        _, _, away = closest_points(loft(_through(data, fewer)), 0, data.xyz[~fewer])
+        _, _, away = closest_points(loft(data.through(fewer)), 0, data.xyz[~fewer])
         if away.max() <= tolerance:
             return fewer
     return None
-
-
-def _through(data: CurveData, keep: NDArray[np.bool_]) -> CurveData:
-    """Give a curve through some of its points."""
-    start = np.array([0, int(keep.sum())])
-    return CurveData(
-        start, data.xyz[keep], data.kind[keep], data.direction[keep], data.end_kind, data.end_vector
-    )
 
 
 def _summed(
