@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from importlib.resources import files
 
+import attrs
+
 from assoc_hull.arguments import number
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.edit.document import Document
@@ -122,7 +124,10 @@ def series60_adopted(cb: float = 0.70) -> tuple[HullState, AdoptionReport]:
     BadInputError
         Another block coefficient.
     """
-    return net_from_table(todd_table(cb)[0], _TOLERANCES, deck="closed")
+    table = todd_table(cb)[0]
+    # The report counts its stations from the FP; the lines of this hull are counted from the AP.
+    from_ap = attrs.evolve(table, station=20.0 * table.x / table.length)
+    return net_from_table(from_ap, _TOLERANCES, deck="closed")
 
 
 def series60(cb: float = 0.70) -> HullState:

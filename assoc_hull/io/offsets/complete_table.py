@@ -557,8 +557,7 @@ def net_from_table(
         None: those that the table tells, with this deck.
     imported : bool
         As imports have it: lines off the flats run straight, too, between neighbours of their
-        greatest offset, sections turn in knuckles, and lines have the names of the table. The
-        shipped Series 60 goes without.
+        greatest offset, and sections turn in knuckles; the shipped Series 60 goes without.
 
     Returns
     -------

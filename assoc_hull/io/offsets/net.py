@@ -125,14 +125,14 @@ def adopt_completed(
 ) -> tuple[HullState, AdoptionReport]:  # fmt: skip
     """Adopt a table with its completion at full size, as of `at_full_size`.
 
-    `imported`: lines off the flats run straight, too, where they have one greatest offset,
-    sections turn where they have a knuckle, and lines are named as the table names them.
+    `imported`: lines off the flats run straight, too, where they have one greatest offset, and
+    sections turn where they have a knuckle. Lines are named as the table names them.
     """
     factor, full = length_factor(table.length), at_full_size(table)
     flats = _FlatBorder(completion.side, full)
     sources = _boundaries(full, completion, flats)
     wet = [i for i in range(len(full.x)) if (full.half_breadth[i, 1:] > 0.0).any()]
-    stations, levels = _names(table) if imported else _names_of_shipped(table)
+    stations, levels = _names(table)
     sources += [_closed_section(full, completion, flats, i, factor, stations[i]) for i in wet]
     inner = range(1, len(full.z) - 1)
     sources += [_closed_waterline(full, completion, flats, j, levels[j]) for j in inner]
@@ -169,13 +169,6 @@ def _as_printed(group: str, printed: FloatArray | None, places: FloatArray) -> l
     if len({*shown}) < len(shown):
         shown = [plane_name(group, each) for each in places.tolist()]
     return shown
-
-
-def _names_of_shipped(table: OffsetTable) -> tuple[list[str], list[str]]:
-    """Name them as the shipped Series 60 has them: 20 stations from AP, parts of the draught."""
-    draught = table.draught or 1.0
-    stations = [f"ST {round(20.0 * x / table.length, 6):g}" for x in table.x.tolist()]
-    return stations, [f"WL {z / draught:g}" for z in table.z.tolist()]
 
 
 def _with_knuckles(line: LineSource, table: OffsetTable, knuckles: NDArray[np.bool_]) -> LineSource:
