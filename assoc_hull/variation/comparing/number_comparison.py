@@ -200,8 +200,11 @@ class NumberComparison:
     def percent(self) -> float | None:
         """The difference in percent of the parent's value.
 
-        None if that is missing, or zero in its printed digits: then it is only rounding.
+        None if that is missing, or zero in its printed digits: then it is only rounding; and of a
+        value in per cent itself, where it would be taken for its points.
         """
+        if self.unit.startswith("%"):
+            return None
         if self.difference is None or self.before is None or not self._printed(self.before):
             return None
         return 100.0 * self.difference / abs(self.before)

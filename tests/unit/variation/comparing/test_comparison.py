@@ -327,3 +327,11 @@ def test_a_line_that_was_straight_is_told_by_its_comb_and_not_by_a_ratio(parent:
     assert told.endswith(" 1/m3")
     assert "inf times" not in text
     assert not [note for note in raked.report.notes if "inf" in note]
+
+
+def test_a_value_in_per_cent_has_no_difference_in_per_cent() -> None:
+    """LCB from amidships, .49 and .44 % of Lpp, differs by .05 points, not by 10 %."""
+    found = NumberComparison("LCB%", "from amidships", "% L", 4, 0.4919, 0.4429)
+    assert found.percent is None
+    assert found.difference == pytest.approx(-0.049)
+    assert NumberComparison("V", "volume", "m3", 2, 200.0, 210.0).percent == pytest.approx(5.0)
