@@ -40,9 +40,11 @@ from assoc_hull.cli.problems import (
     is_apart,
 )
 from assoc_hull.cli.typed_edits import is_operation, typed_edit, unknown_edit
+from assoc_hull.edit.arguments import GivenObjects
 from assoc_hull.edit.explain.causes import Why
 from assoc_hull.edit.explain.compare_states import state_at
 from assoc_hull.edit.explain.preview import LineChange, Preview
+from assoc_hull.edit.modifications.pull import usual_radius
 from assoc_hull.edit.script import carry_out
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.step import EditReport
@@ -285,12 +287,15 @@ def _carry_out(arguments: argparse.Namespace, name: str, changes: Changes) -> in
     hull = changed.hull
     for each in arguments.why:
         hull.find(each)  # before anything is edited
+    reach = list(_radii(hull, changes))
     with progress("updating"), _values_of(str(arguments.edits)), hull.edit(name) as edit:
         _modify_all(edit, changes, arguments.edits)
     assert edit.report is not None, "an edit without an error has a report"
     causes = {each: hull.why(each) for each in arguments.why}
     facts = _facts(edit.report, causes, hull.fingerprint, changed.target)
-    told = [edit_words(hull, edit.report), *why_words(causes), f"written: {changed.target}"]
+    told = [
+        *reach, edit_words(hull, edit.report), *why_words(causes), f"written: {changed.target}",
+    ]  # fmt: skip
     changed.save()  # last: what cannot be told leaves no file
     emit(arguments, facts, "\n".join([name, *told]))
     return 0
@@ -317,9 +322,22 @@ def _try(arguments: argparse.Namespace, name: str, changes: Changes) -> int:
         "lines": found.lines, "volume_change": found.volume_change, "lcb_change": found.lcb_change,
         "plain": _plain_facts(found.plain),
     }  # fmt: skip
-    told = [*preview_words(hull, found), *why_words(found.why), "nothing written"]
+    told = [
+        *_radii(hull, changes), *preview_words(hull, found), *why_words(found.why),
+        "nothing written",
+    ]  # fmt: skip
     emit(arguments, facts, "\n".join([name, *told]))
     return 0
+
+
+def _radii(hull: Hull, changes: Changes) -> Iterator[str]:
+    """Say how far pulls reach that are given no radius; nothing of points still to come."""
+    for change in changes:
+        if change.get("op") == "pull" and not change.get("radius"):
+            with contextlib.suppress(AssocHullError):
+                row, _ = GivenObjects(hull.state).point(change.get("point", ""))
+                reach = usual_radius(hull.state, row)[0]
+                yield f"  radius       {reach:.3g} m along the ship and the girth, as none is given"
 
 
 def _plain_facts(plain: Preview | None) -> dict[str, Any] | None:

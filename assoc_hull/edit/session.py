@@ -354,10 +354,41 @@ class Edit:
         across_flats: bool = False,
         fair: bool = False,
     ) -> None:
-        """Pull the hull at a point by d (m, outward), fading over (r_x, r_girth) in m.
+        """Pull the hull at a point along its normal; points around follow, less and less.
 
-        With ``fair=True`` the hull around answers as fairly as it was, see `reshape`; the radius is
-        where the search for that answer begins.
+        Parameters
+        ----------
+        point : Point, Crossing or address
+            Where. Of a crossing both curves are pulled.
+        d : float, m
+            By how much, + outward.
+        radius : (float, float) or None, m
+            How far the pull reaches along the ship and along the girth of sections; nothing beyond
+            moves. None: three times the distance of the points around it, which is little where
+            lines are dense.
+        across_flats : bool
+            Whether points on the flats of side and bottom move as well.
+        fair : bool
+            Whether the hull around answers as fairly as it was, see `reshape`; the radius is where
+            the search for that answer begins.
+
+        Raises
+        ------
+        PointRoleError
+            The point lies on the profile, or on a flat that is not to move.
+        BadInputError
+            A radius that is not above 0; `fair` and `across_flats` at once.
+        UnknownNameError, ForeignPointError
+            There is no such point; a point of another hull.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("fuller shoulder") as edit:
+        ...     edit.pull("WL 2.5 x ST 12", 0.02, radius=(20.0, 5.0))
+        >>> round(1e3 * edit.report.largest_normal.distance, 1)
+        20.0
         """
         row, _ = self._given.point(point)
         flag(across_flats, "across_flats", "in pull")

@@ -31,7 +31,7 @@ from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.program.structure import Program, Values
 from assoc_hull.model.tables import HullState
 
-__all__ = ["curves_to_hold", "pull", "pull_field"]
+__all__ = ["curves_to_hold", "pull", "pull_field", "usual_radius"]
 
 _NEAR = 0.15
 """Times `Tolerances.factor`: a curve with a point as near as this (m) is given no other to
@@ -111,10 +111,7 @@ def pull_field(
 ) -> PullField:
     """Give the field of a pull; it raises as `pull`. `numbers` are as `FieldContext` takes them."""
     place = state.rows.xyz[row].copy()
-    if radius is None:
-        reach = (3.0 * row_spacing(state, place), 3.0 * row_spacing(state, place))
-    else:
-        reach = pair(radius, "radius", positive=True)
+    reach = usual_radius(state, row) if radius is None else pair(radius, "radius", positive=True)
     ground = FieldContext(state, across_flats, numbers)
     border = _border_distance(ground, row, reach[1])
     if border is None:
@@ -125,6 +122,12 @@ def pull_field(
         raise PointRoleError(address(state, row), kind, None, remedy)
     fade, normal = min(reach[1], border), ground.normals(np.array([row]))[0].copy()
     return PullField(row, place, amount, normal, reach, fade, across_flats)
+
+
+def usual_radius(state: HullState, row: int) -> tuple[float, float]:
+    """Give how far (m) a pull at a point reaches where nobody says it: three points each way."""
+    reach = 3.0 * row_spacing(state, state.rows.xyz[row])
+    return reach, reach
 
 
 def curves_to_hold(state: HullState, row: int) -> list[tuple[int, FloatArray]]:

@@ -280,3 +280,16 @@ def test_what_was_born_is_told_by_the_names_of_lines(
     told = capsys.readouterr().out.partition("born")[2]
     assert "ST 7 x WL 3.3" in told or "WL 3.3 x ST 7" in told
     assert "sections:" not in told
+
+
+@pytest.mark.parametrize("how", [[], ["--dry-run"]])
+def test_a_pull_without_a_radius_tells_how_far_it_reaches(
+    hull: Path, how: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Nobody asked for it, and nothing beyond moves; who gives one is told nothing."""
+    assert main(["edit", str(hull), "pull", POINT, "10mm", *how]) == 0
+    (told,) = [each for each in capsys.readouterr().out.splitlines() if "radius  " in each]
+    reach = float(told.split()[1])
+    given = ["--radius", str(reach), str(reach)]
+    assert main(["edit", str(hull), "pull", POINT, "10mm", *given, *how]) == 0
+    assert "radius  " not in capsys.readouterr().out
