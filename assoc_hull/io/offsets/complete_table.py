@@ -18,6 +18,8 @@ from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
 from assoc_hull.io.offsets.net import (
+    BOW_END,
+    TRANSOM,
     Completion,
     adopt_completed,
     at_full_size,
@@ -572,11 +574,13 @@ def net_from_table(
     try:
         # Fits of borders know lengths: a short hull passes them at the size these hold for.
         completion = _completion(at_full_size(table))
+        unused = tuple(_level_deck(table))
+        if unused:
+            ship = attrs.evolve(ship, depth=float(table.z[-1]))
         state, report = adopt_completed(table, completion, ship, tolerances, imported=imported)
         # Of the shipped Series 60 the ends are explained where she is made.
         stern, stem = completion.stern, completion.stem
         beyond = _drawn_ends(table, at_full_size(table), stern, stem) if imported else ()
-        unused = tuple(_level_deck(table))
         return state, attrs.evolve(report, notes=(*beyond, *report.notes), unused=unused)
     except (BadInputError, CoincidentPointsError, TooFewPointsError) as error:
         ends = _known_ends(table)
@@ -589,7 +593,7 @@ def net_from_table(
         about = list[str]()
         if profile is not None:
             about += [] if ends is None else _drawn_ends(table, table, *ends, profile)
-            about += [note, *_open_ends(table, profile)]
+            about += [note, *_ends_left(table, state, profile)]
         notes = (*(about or (note,)), *report.notes, *_coarse_keel(table))
         return state, attrs.evolve(report, notes=notes)
 
@@ -603,8 +607,9 @@ def _level_deck(table: OffsetTable) -> Iterator[str]:
         yield (
             f"its deck at {low:.6g} to {high:.6g} m is not used: the rules that close stem, stern "
             f"and flats know no sheer and end at the highest waterline, z = {top:.6g} m, as a "
-            "level deck edge; give her as lines to have it as drawn (vary with sheer_fore and "
-            "sheer_aft gives her sheer, and stretches all lines above the draught for it)"
+            "level deck edge, which is her depth here; give her as lines to have it as drawn (vary "
+            "with sheer_fore and sheer_aft gives her sheer, and stretches all lines above the "
+            "draught for it)"
         )
 
 
@@ -616,34 +621,39 @@ def _profile_of(state: HullState) -> FloatArray | None:
     return None
 
 
-_FLAT_END = 0.5
-"""A last station as broad as this part of the ship is taken for a flat end."""
-
-
-def _open_ends(table: OffsetTable, profile: FloatArray) -> Iterator[str]:
-    """Tell where the profile stops below the deck, and which row of the table would close it."""
+def _ends_left(table: OffsetTable, state: HullState, profile: FloatArray) -> Iterator[str]:
+    """Tell which ends are taken to be flat, and where the profile stops below the deck and why."""
     known = np.full(1, table.z[-1]) if table.deck_height is None else table.deck_height
     known = known[np.isfinite(known)]
-    broadest = float(np.nanmax(table.half_breadth))
-    for row, name, place, deck, way in (
-        (0, "stern", profile[0], known[0], "aft"), (-1, "stem", profile[-1], known[-1], "forward"),
+    lines = {str(state.lines.name[line]) for line in state.live("lines").tolist()}
+    for row, name, edge, place, deck, way in (
+        (0, "stern", TRANSOM, profile[0], known[0], "aft"),
+        (-1, "bow", BOW_END, profile[-1], known[-1], "forward"),
     ):  # fmt: skip
-        if not place[2] < deck - _UPRIGHT:
-            continue
-        broad = float(np.nanmax(table.half_breadth[row], initial=0.0))
-        remedy = (
-            f"give one more station {way}, where the {name} meets the deck, with keel {deck:.6g} "
-            "and blank half-breadths; or, where it is upright, a station of zeros a little "
-            f"{'abaft' if row == 0 else 'forward of'} the last"
-        ) if broad <= _FLAT_END * broadest else (
-            f"the last station there, at x = {table.x[row]:.6g} m, is {broad:.4g} m out: if she "
-            f"ends flat, a table cannot say so; give her as lines, with that end as a curve "
-            f"'{'transom' if row == 0 else 'bow end'}'"
-        )  # fmt: skip
-        yield (
-            f"the {name} is open from x = {place[0]:.6g} m, z = {place[2]:.6g} m up to the deck "
-            f"at {deck:.6g} m: {remedy}"
-        )
+        if edge in lines:
+            yield (
+                f"assumed: {name}: the table: her {'first' if row == 0 else 'last'} station, x = "
+                f"{table.x[row]:.6g} m, where the keel ends, is the edge of a flat end, '{edge}': "
+                f"if she goes on, give one more station {way}, with the keel where she ends"
+            )
+        elif place[2] < deck - _UPRIGHT:
+            yield (
+                f"the {'stern' if row == 0 else 'stem'} is open from x = {place[0]:.6g} m, z = "
+                f"{place[2]:.6g} m up to the deck at {deck:.6g} m: give one more station {way}, "
+                f"where it meets the deck, with {_at_the_deck(table, float(deck))}; or, where it "
+                f"is upright, a station of zeros a little {'abaft' if row == 0 else 'forward of'} "
+                "the last"
+            )
+
+
+def _at_the_deck(table: OffsetTable, deck: float) -> str:
+    """Say what the row of a stem's head, or of a stern's, has in its columns."""
+    if table.deck_height is None or table.deck_half_breadth is None:
+        return f"keel {deck:.6g} and blank half-breadths"
+    return (
+        f"keel and deck both {deck:.6g}, or how high the deck is there, 0 as half-breadth of the "
+        "deck and blank half-breadths"
+    )
 
 
 def _drawn_ends(
@@ -723,9 +733,22 @@ def _known_ends(table: OffsetTable) -> tuple[FloatArray, FloatArray] | None:
     if table.keel is None:
         return None
     try:
-        return end_contours(table)
+        stern, stem = end_contours(table)
     except BadInputError:
         return None
+    # Waterlines that end in a broad section under water are not drawn on: she ends flat there.
+    return (np.full_like(stern, table.x[0]) if _ends_flat(table) else stern), stem
+
+
+_FLAT_AREA = 0.25
+"""A last section with more than this part of the greatest area is no stern that was cut off."""
+
+
+def _ends_flat(table: OffsetTable) -> bool:
+    """Tell whether the aftmost section has so much area below the draught that it is a transom."""
+    y = np.nan_to_num(table.half_breadth[:, table.z <= (table.draught or table.z[-1])])
+    area = np.asarray(np.trapezoid(y, table.z[: y.shape[1]], axis=1))
+    return bool(area[0] > _FLAT_AREA * area.max(initial=0.0))
 
 
 def _completion(table: OffsetTable) -> Completion:

@@ -211,9 +211,10 @@ def _cut_off(patient: ExaminedTable, book: Notebook) -> None:
             gap = f", {short:.4g} m from the perpendicular" if not reached else ""
             asks = "is a station missing?"
             if part > _FLAT:
+                end = "transom" if i == 0 else "bow end"
                 asks += (
-                    " If she ends flat there, give her as lines with that end as a curve "
-                    f"'{'transom' if i == 0 else 'bow end'}': a table states no flat ends"
+                    " If she ends flat there, a column keel that ends there makes it the edge "
+                    f"'{end}'; without one give her as lines with that end as a curve '{end}'"
                 )
             book.suspect("missing station", where, f"{what}{gap}: {asks}", part)
 

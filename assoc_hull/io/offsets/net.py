@@ -32,6 +32,8 @@ from assoc_hull.model.tables import HullState, Particulars
 from assoc_hull.tolerance import Tolerances, length_factor
 
 __all__ = [
+    "BOW_END",
+    "TRANSOM",
     "Completion",
     "adopt_completed",
     "at_full_size",
@@ -511,9 +513,35 @@ def lines_of_table(
         for points in _open_waterlines(table, j, profile)
     ]
     if profile is not None:
+        widest = float(np.nanmax(table.half_breadth))
+        found = [_edge_of_end(line, profile, widest, near) for line in found]
         found.append(profile)
     found += [_deck_edge(table, points, near) for points in _deck(table, profile)]
     return found
+
+
+TRANSOM, BOW_END = "transom", "bow end"
+"""Names of the edges of flat ends, aft and forward."""
+
+_FLAT_END = 0.5
+"""A last station as broad as this part of the ship, at which the profile stops, is a flat end."""
+
+
+def _edge_of_end(line: LineSource, profile: LineSource, widest: float, near: float) -> LineSource:
+    """Let a section at whose foot the profile ends be the edge of a flat end, and no section.
+
+    Waterlines and the deck edge end on it, as on any boundary; on a section they would only end.
+    """
+    if line.group != "sections":
+        return line
+    foot = line.points[0]
+    aft, fore = (np.abs(foot - profile.points[end]).max() <= near for end in (0, -1))
+    if not (aft or fore) or line.points[:, 1].max() < _FLAT_END * widest:
+        return line
+    return attrs.evolve(
+        line, group="boundary", family="boundary", name=TRANSOM if aft else BOW_END,
+        boundary=BoundaryKind.END,
+    )  # fmt: skip
 
 
 def _deck_edge(table: OffsetTable, points: FloatArray, near: float) -> LineSource:

@@ -96,6 +96,7 @@ def outline_of_table(table: OffsetTable) -> HullOutline:
         for x, y in zip(table.x.tolist(), table.half_breadth, strict=True)
         for known in (np.isfinite(y),) if known.any()
     ]  # fmt: skip
+    sections = [_up_to_deck(table, section) for section in sections]
     if table.keel is None:
         contour = [np.column_stack([end, table.z]) for end in _end_places(table)]
         contour.append(np.array([section[0, [0, 2]] for section in sections]))
@@ -107,6 +108,17 @@ def outline_of_table(table: OffsetTable) -> HullOutline:
         known = np.isfinite(table.deck_height)
         deck = np.column_stack([table.x, table.deck_height])[known]
     return outline_of_sections(sections, contour, deck, bare=table.keel is None)
+
+
+def _up_to_deck(table: OffsetTable, section: FloatArray) -> FloatArray:
+    """Carry a section (n, 3) on to the deck edge, where the table has it above: the hull's top."""
+    if table.deck_height is None or table.deck_half_breadth is None:
+        return section
+    i = int(np.flatnonzero(table.x == section[0, 0])[0])
+    edge = np.array([table.x[i], table.deck_half_breadth[i], table.deck_height[i]])
+    if not np.isfinite(edge).all() or edge[2] <= section[-1, 2]:
+        return section
+    return np.vstack([section, edge])
 
 
 def _keel_and_ends(table: OffsetTable, keel: FloatArray) -> FloatArray:

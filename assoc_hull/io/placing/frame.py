@@ -28,6 +28,9 @@ _LEVEL = 1e-3
 _SIDES = 1e-3
 """Breadth or depth this part less than that of all of the hull is that of all of the hull."""
 
+_DEPTH = 0.01
+"""A depth that differs from the height of the drawn deck edge by more than this part is told."""
+
 _WET, _DRY = 0.1, 0.95
 """z = 0 of the file between these parts of the depth is taken for the waterline."""
 
@@ -632,14 +635,18 @@ def _depth(
     book: Notebook, where: str,
 ) -> tuple[float, str]:  # fmt: skip
     """Give the depth (m) and whence it is known."""
+    top = float(outline.high[2]) - heights.base
+    edge = outline.deck_height(0.5 * (ends.ap + ends.fp)) - heights.base
+    told = asked.depth or said.depth
+    if told is not None and outline.deck is not None and abs(told - edge) > _DEPTH * edge:
+        what = f"{told:.6g} m, and the deck edge amidships is at {edge:.6g} m"
+        book.suspect("contradiction", "depth", what, told - edge)
     if asked.depth is not None:
-        _check_depth(asked.depth, float(outline.high[2]) - heights.base, where)
+        _check_depth(asked.depth, top, where)
         return asked.depth, "given"
     if said.depth is not None:
         _tell_stated("depth", said.depth, said, book, where)
         return said.depth, "stated"
-    top = float(outline.high[2]) - heights.base
-    edge = outline.deck_height(0.5 * (ends.ap + ends.fp)) - heights.base
     depth = top if edge <= 0.0 or edge > (1.0 - _SIDES) * top else edge
     book.assume("depth", where, f"{depth:.6g} m, the height of the deck edge amidships", depth)
     return depth, "found"

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
+import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.hull_hydrostatics import hydrostatics
 from assoc_hull.edit.document import Document
-from assoc_hull.io.importing.import_hull import import_hull
+from assoc_hull.io.importing.import_hull import ImportReport, import_hull
 from assoc_hull.io.importing.options import ImportOptions
 from assoc_hull.io.importing.soundness import sampled_places
 from assoc_hull.io.offsets.net import lines_of_table
@@ -201,3 +203,87 @@ def test_an_end_that_stays_open_says_which_row_closes_it(tmp_path: Path) -> None
         assert [note.split()[1] for note in told] == open_ends
         assert "give one more station" in told[0]
         last = "11,47,5.9,,,,,,,5.9,0"
+
+
+# --------------------------------------------------------------------------------------
+# Flat ends.
+
+BOAT = """# patrol boat, half-breadths and heights in m
+station,keel,0.3,0.6,1,1.4,1.9,2.4,3,sheer,half-breadth deck
+0,0.95,,,1.109,1.963,2.384,2.661,2.912,3.4,3.05
+0.5,0.79,,,1.575,2.112,2.49,2.758,3.009,3.4,3.15
+1,0.62,,,1.817,2.239,2.585,2.844,3.094,3.41,3.24
+2,0.31,,1.588,2.096,2.426,2.737,2.988,3.239,3.44,3.4
+3,0.09,1.325,1.807,2.213,2.514,2.815,3.066,3.324,3.49,3.51
+4,0,1.433,1.853,2.238,2.535,2.838,3.094,3.36,3.56,3.58
+5,0,1.325,1.748,2.145,2.454,2.773,3.044,3.328,3.65,3.6
+6,0,1.109,1.526,1.93,2.254,2.593,2.888,3.2,3.76,3.55
+7,0,0.805,1.187,1.58,1.907,2.263,2.579,2.922,3.89,3.38
+8,0,0.483,0.784,1.121,1.419,1.757,2.07,2.42,4.04,2.98
+9,0.1,0.154,0.345,0.578,0.799,1.064,1.32,1.619,4.21,2.2
+9.5,0.52,,0.04,0.226,0.405,0.623,0.839,1.094,4.3,1.64
+10,1.9,,,,,0,0.175,0.401,4.4,0.95
+"""
+"""She ends in a transom at the AP; her stem is raked, and the table stops at the FP."""
+
+
+def boat(folder: Path, text: str = BOAT, **options: Any) -> tuple[HullState, ImportReport]:
+    """Her hull, 36 m long at a draught of 1.9 m."""
+    path = folder / "boat.csv"
+    path.write_text(text)
+    given = {"length": 36.0, "draught": 1.9, "station_zero": "ap", **options}
+    return import_hull(path, ImportOptions(**given))
+
+
+def without_deck(text: str) -> str:
+    """Leave the two columns of the deck out."""
+    head, *rows = text.splitlines()
+    return "\n".join([head, *(",".join(row.split(",")[:-2]) for row in rows)]) + "\n"
+
+
+@pytest.mark.parametrize("text", [BOAT, without_deck(BOAT)], ids=["sheer", "no sheer"])
+def test_lines_end_on_the_edge_of_a_flat_end_and_follow_it(text: str, tmp_path: Path) -> None:
+    """The last station becomes it: a waterline that is pulled there takes it along, and back."""
+    state, report = boat(tmp_path, text)
+    assert any("is the edge of a flat end, 'transom'" in each for each in report.adoption.notes)
+    hull = ah.Hull(state)
+    assert "ST 0" not in hull.lines
+    ends = [f"{name} x transom" for name in ("WL 1", "WL 1.4", "WL 1.9", "WL 2.4")]
+    assert [hull.crossings[each].role for each in ends] == ["shared"] * 4
+    with hull.edit("broader transom") as edit:
+        edit.pull("WL 1.4 x transom", 0.05, radius=(7.0, 3.0))
+    level = hull.lines["WL 1.4"].meet(((1, 0, 0), 0.0))
+    upright = hull.lines["transom"].meet(((0, 0, 1), 1.4))
+    assert np.abs(level[0] - upright[0]).max() < 1e-9
+    assert level[0][1] > 1.963 + 0.02
+    assert not hull.verify()
+
+
+def test_an_immersed_transom_has_the_area_that_its_numbers_give(tmp_path: Path) -> None:
+    """It was 0, without a word, and resistance took it for that."""
+    state, _ = boat(tmp_path)
+    z = [0.95, 1.0, 1.4, 1.9]
+    area = 2.0 * np.trapezoid([0.0, 1.109, 1.963, 2.384], z)
+    assert hydrostatics(ah.Hull(state)).transom_area == pytest.approx(area, rel=0.03)
+
+
+@pytest.mark.parametrize("depth", [None, 3.65, 3.2])
+def test_the_depth_is_that_of_the_deck_edge_amidships(depth: float | None, tmp_path: Path) -> None:
+    """The sheer's, not the highest waterline's; another that is given is kept, and told."""
+    state, report = boat(tmp_path, depth=depth)
+    assert state.particulars.depth == pytest.approx(depth or 3.65)
+    told = [each for each in report.verdict.suspicions if each.where == "depth"]
+    assert len(told) == (depth == 3.2)
+
+
+@pytest.mark.parametrize("sheer", [True, False])
+def test_a_row_at_the_head_of_the_stem_closes_it_as_the_note_says(
+    sheer: bool, tmp_path: Path
+) -> None:
+    """With a deck both heights and a half-breadth of 0; then nothing of the net is open."""
+    text = BOAT if sheer else without_deck(BOAT)
+    row = "10.5,4.4,,,,,,,,4.4,0" if sheer else "10.5,3,,,,,,,"
+    state, report = boat(tmp_path, text + row + "\n", deck="closed")
+    assert not [each for each in report.adoption.notes if "is open from" in each]
+    assert not [each for each in report.verdict.suspicions if each.kind == "open net"]
+    assert ah.Hull(state).mesh().report.sound
