@@ -1392,20 +1392,27 @@ class Hull:
             self, position, appendages, demihulls=demihulls, separation=separation
         )
 
-    def bonjean(self, levels: int = 41) -> Bonjean:
+    def bonjean(self, levels: int | ArrayLike = 41) -> Bonjean:
         """Give the Bonjean curves of a hull, from the keel to the deck edge.
 
         Parameters
         ----------
-        levels : int
-            At so many heights: from the lowest place of the hull to the lowest of an open deck
-            edge, or the highest of a closed one.
+        levels : int or (n,) m
+            At these heights, from below; or at so many, from the lowest place of the hull to the
+            lowest of an open deck edge, or the highest of a closed one.
+
+        Raises
+        ------
+        BadInputError
+            Fewer than two levels, heights that do not rise, numbers that are none.
+        OutOfRangeError
+            A height outside that range.
 
         Examples
         --------
         >>> import assoc_hull as ah
-        >>> curves = ah.examples.wigley().bonjean(5)
-        >>> curves.stations.area.shape == curves.moment.shape == (5, len(curves.stations.x))
+        >>> curves = ah.examples.wigley().bonjean([2.0, 4.0, 6.0])
+        >>> curves.stations.area.shape == curves.moment.shape == (3, len(curves.stations.x))
         True
         """
         from assoc_hull.analysis.hydrostatics.section_areas import bonjean

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import attrs
 import numpy as np
+from numpy.typing import ArrayLike
 
 from assoc_hull.analysis.hydrostatics.floating_body import (
     FloatingBody,
@@ -20,8 +21,8 @@ from assoc_hull.analysis.hydrostatics.flotation import Flotation, body_of, flota
 from assoc_hull.analysis.hydrostatics.tunnel import TunnelledBody
 from assoc_hull.analysis.net.curve_net import flat_ends_below, station_planes
 from assoc_hull.analysis.net.surface_layout import areas_between, strip_extents
-from assoc_hull.arguments import integer
-from assoc_hull.errors import BadInputError
+from assoc_hull.arguments import integer, numbers
+from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, Strips, freeze
 from assoc_hull.geometry.floating.immersed_strips import prepare_strips
 from assoc_hull.geometry.floating.immersion import (
@@ -428,20 +429,36 @@ def sectional_area_course(hull: HasState, position: FloatingPosition) -> FloatAr
     return course
 
 
-def bonjean(hull: HasState, levels: int = 41) -> Bonjean:
+def bonjean(hull: HasState, levels: int | ArrayLike = 41) -> Bonjean:
     """Give the Bonjean curves of a hull, from the keel to the deck edge.
 
     The arguments and what is raised are those of `Hull.bonjean`.
     """
-    count = integer(levels, "levels", _WHERE, least=2, most=1000)
     body = flotation(state_of(hull))
     level = FloatingPlanes(np.zeros(1), np.zeros(1), np.zeros(1))
     low, high = body.limits.mean_draughts(level, hull.state.particulars.length)
-    z = np.linspace(float(low[0]), float(high[0]), count)
-    planes = FloatingPlanes(z.copy(), np.zeros(count), np.zeros(count))
+    z = _heights(levels, float(low[0]), float(high[0]))
+    planes = FloatingPlanes(z.copy(), np.zeros(len(z)), np.zeros(len(z)))
     stations, moment = body.stations_and_moments(planes)
     whole = body_of(hull)
     if isinstance(whole, TunnelledBody):
         area, turned = whole.holes(stations.x, planes)
         stations, moment = attrs.evolve(stations, area=stations.area - area), moment - turned
     return Bonjean(z, stations, moment)
+
+
+def _heights(levels: int | ArrayLike, low: float, high: float) -> FloatArray:
+    """Give the heights that are asked for, (n,), m, or so many from end to end."""
+    several = (
+        levels.ndim > 0 if isinstance(levels, np.ndarray) else isinstance(levels, list | tuple)
+    )
+    if not several:
+        return np.linspace(low, high, integer(levels, "levels", _WHERE, least=2, most=1000))
+    z = np.array(numbers(levels, "levels", _WHERE))
+    if not len(z) or (np.diff(z) <= 0.0).any():
+        raise BadInputError("levels do not rise", _WHERE, "give heights in m, from below")
+    for each in (z[0], z[-1]):
+        if not low <= each <= high:
+            why = "lies outside the hull, or above its open deck"
+            raise OutOfRangeError("a level", float(each), _WHERE, why, low, high, "m")
+    return z

@@ -32,6 +32,7 @@ from assoc_hull.analysis.stability.stability_report import Stability, stability
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.edit.checks.hull_findings import check
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.volume_below import integrate_below
 from assoc_hull.io.reports import Tell, no_progress
 from assoc_hull.model.tables import HasState
@@ -295,16 +296,29 @@ def _rows(columns: Sequence[Any]) -> tuple[tuple[Cell, ...], ...]:
     )
 
 
-_LEVELS = 11
+_LEVELS = 12
+"""At most so many heights stand in a row of the table of Bonjean curves."""
+
+_ROUND = (1.0, 2.0, 2.5, 5.0)
+
+
+def _round_heights(low: float, high: float) -> FloatArray:
+    """Give round heights between two, (n,), m, as many as stand in a row."""
+    least = (high - low) / (_LEVELS - 2)
+    size = 10.0 ** np.floor(np.log10(least))
+    step = next(size * each for each in (*_ROUND, 10.0) if size * each >= least)
+    count = np.arange(np.ceil(low / step), np.floor(high / step * (1.0 + 1e-12)) + 1.0)
+    return np.asarray(count * step)
 
 
 def _bonjean(hull: HasState, design: HydrostaticTable) -> BookPart:
     """Tell areas and moments of the stations up to levels; curves are of more of them."""
-    some = bonjean(hull, _LEVELS)
+    whole = bonjean(hull)
+    some = bonjean(hull, _round_heights(float(whole.z[0]), float(whole.z[-1])))
     stations = list(zip(some.stations.names, some.stations.x.tolist(), strict=True))
     heads = (
         BookColumn("station"), BookColumn("x", "m", 3),
-        *(BookColumn(f"z {z:.2f}", "", 2) for z in some.z.tolist()),
+        *(BookColumn(f"z {z:.6g}", "", 2) for z in some.z.tolist()),
     )  # fmt: skip
     tables = [
         BookTable(
@@ -318,7 +332,7 @@ def _bonjean(hull: HasState, design: HydrostaticTable) -> BookPart:
             ("Moments of these areas about the base line, m3", some.moment),
         )
     ]  # fmt: skip
-    curves = BookPicture("Bonjean curves", lambda: bonjean_curves(hull, bonjean(hull), design))
+    curves = BookPicture("Bonjean curves", lambda: bonjean_curves(hull, whole, design))
     return BookPart("bonjean", "Bonjean curves", (), tuple(tables), (curves,))
 
 

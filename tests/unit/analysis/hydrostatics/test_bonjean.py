@@ -74,3 +74,14 @@ def test_moments_under_heel_are_those_of_slices(series60_70: ah.Hull) -> None:
     assert (more >= low * np.diff(area.area, axis=0) - 1e-9).all()
     assert (more <= high * np.diff(area.area, axis=0) + 1e-9).all()
     assert (section_areas(body, area.x, planes(edge[-1:])) == area.area[-1:]).all()
+
+
+def test_heights_that_are_given_are_those_of_the_curves() -> None:
+    """As they are, and nothing else: areas are those of so many levels."""
+    hull = ah.examples.wigley()
+    some, many = hull.bonjean([2.5, 5.0, 7.5]), hull.bonjean(16)
+    assert some.z.tolist() == [2.5, 5.0, 7.5]
+    assert some.stations.area == pytest.approx(many.stations.area[[4, 8, 12]], abs=1e-12)
+    for wrong in ([5.0, 2.5], [], [2.5, 2.5], [-1.0, 2.0], [2.0, 40.0], [np.nan]):
+        with pytest.raises(ah.AssocHullError):
+            hull.bonjean(wrong)
