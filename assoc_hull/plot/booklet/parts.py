@@ -218,10 +218,16 @@ def usual_draughts(hull: HasState, design: float) -> list[float]:
     limits = body_of(hull).limits
     deck, bottom = float(limits.deck[:, 2].min()), float(limits.bottom[:, 2].min())
     low, high = bottom + _SHALLOW * (design - bottom), min(_DEEP * design, deck - _DRY)
-    step = next((each for each in _STEPS if (high - low) / each <= _MOST), _STEPS[-1])
-    round_ones = step * np.arange(np.ceil(low / step), np.floor(high / step) + 1.0)
+    step, round_ones = _round_heights(low, high, _MOST)
     near = np.abs(round_ones - design) < 0.1 * step
-    return sorted([*round_ones[~near].round(6).tolist(), design])
+    return sorted([*round_ones[~near].tolist(), design])
+
+
+def _round_heights(low: float, high: float, most: int) -> tuple[float, FloatArray]:
+    """Give a round step, m, and its multiples between two heights, (n,), about so many at most."""
+    step = next((each for each in _STEPS if (high - low) / each <= most), _STEPS[-1])
+    count = np.arange(np.ceil(low / step), np.floor(high / step) + 1.0)
+    return step, np.asarray((step * count).round(6))
 
 
 # --------------------------------------------------------------------------------------
@@ -296,25 +302,14 @@ def _rows(columns: Sequence[Any]) -> tuple[tuple[Cell, ...], ...]:
     )
 
 
-_LEVELS = 12
-"""At most so many heights stand in a row of the table of Bonjean curves."""
-
-_ROUND = (1.0, 2.0, 2.5, 5.0)
-
-
-def _round_heights(low: float, high: float) -> FloatArray:
-    """Give round heights between two, (n,), m, as many as stand in a row."""
-    least = (high - low) / (_LEVELS - 2)
-    size = 10.0 ** np.floor(np.log10(least))
-    step = next(size * each for each in (*_ROUND, 10.0) if size * each >= least)
-    count = np.arange(np.ceil(low / step), np.floor(high / step * (1.0 + 1e-12)) + 1.0)
-    return np.asarray(count * step)
+_LEVELS = 11
+"""About so many heights stand in a row of the table of Bonjean curves."""
 
 
 def _bonjean(hull: HasState, design: HydrostaticTable) -> BookPart:
     """Tell areas and moments of the stations up to levels; curves are of more of them."""
     whole = bonjean(hull)
-    some = bonjean(hull, _round_heights(float(whole.z[0]), float(whole.z[-1])))
+    some = bonjean(hull, _round_heights(float(whole.z[0]), float(whole.z[-1]), _LEVELS)[1])
     stations = list(zip(some.stations.names, some.stations.x.tolist(), strict=True))
     heads = (
         BookColumn("station"), BookColumn("x", "m", 3),
