@@ -513,8 +513,7 @@ def lines_of_table(
         for points in _open_waterlines(table, j, profile)
     ]
     if profile is not None:
-        widest = float(np.nanmax(table.half_breadth))
-        found = [_edge_of_end(line, profile, widest, near) for line in found]
+        found = [_edge_of_end(line, profile, table, near) for line in found]
         found.append(profile)
     found += [_deck_edge(table, points, near) for points in _deck(table, profile)]
     return found
@@ -528,15 +527,18 @@ _FLAT_END = 0.5
 
 
 def _edge_of_end(line: LineSource, profile: LineSource, widest: float, near: float) -> LineSource:
-    """Let a section at whose foot the profile ends be the edge of a flat end, and no section.
+    """Let the last section, at whose foot the profile ends, be the edge of a flat end.
 
     Waterlines and the deck edge end on it, as on any boundary; on a section they would only end.
     """
     if line.group != "sections":
         return line
-    foot = line.points[0]
-    aft, fore = (np.abs(foot - profile.points[end]).max() <= near for end in (0, -1))
-    if not (aft or fore) or line.points[:, 1].max() < _FLAT_END * widest:
+    foot, broad = line.points[0], float(line.points[:, 1].max())
+    aft, fore = (
+        foot[0] == table.x[end] and np.abs(foot - profile.points[end]).max() <= near
+        for end in (0, -1)
+    )  # fmt: skip
+    if not (aft or fore) or broad < _FLAT_END * np.nanmax(table.half_breadth):
         return line
     return attrs.evolve(
         line, group="boundary", family="boundary", name=TRANSOM if aft else BOW_END,
