@@ -526,7 +526,9 @@ _FLAT_END = 0.5
 """A last station as broad as this part of the ship, at which the profile stops, is a flat end."""
 
 
-def _edge_of_end(line: LineSource, profile: LineSource, widest: float, near: float) -> LineSource:
+def _edge_of_end(
+    line: LineSource, profile: LineSource, table: OffsetTable, near: float
+) -> LineSource:
     """Let the last section, at whose foot the profile ends, be the edge of a flat end.
 
     Waterlines and the deck edge end on it, as on any boundary; on a section they would only end.
