@@ -771,18 +771,18 @@ class UnreachableError(AssocHullError, ValueError):
         amount = f"{abs(self.shortfall):.3g} % of the parent's value"
         short = f" ({amount} {more} than asked)" if self.before else ""
         return (
-            f"aim: cannot reach {self.target} {self.asked:.{digits}g}{unit}: best "
+            f"{self.target} cannot be brought to {self.asked:.{digits}g}{unit}: the nearest is "
             f"{self.best:.{digits}g}{unit}{short}{self._reason()}"
         )
 
     def _reason(self) -> str:
-        parts = list[str]()
+        parts, remedy = list[str](), "free another parameter, or ask for less"
         if self.bounds:
-            end = "at its bound" if len(self.bounds) == 1 else "at their bounds"
-            parts.append(f", {_in_words(self.bounds)} {end}")
-        if self.why:
-            parts.append(f"; {self.why}")
-        return "".join(parts) or "; free another parameter, or ask for less"
+            end, wider = ("its bound", "it") if len(self.bounds) == 1 else ("their bounds", "them")
+            parts.append(f", with {_in_words(self.bounds)} at {end}")
+            remedy = f"widen {wider}, {remedy}"
+        parts.append(f"; {self.why or remedy}")
+        return "".join(parts)
 
 
 def _in_words(names: tuple[str, ...]) -> str:

@@ -309,9 +309,15 @@ def _faired(found: FairedFollowers | None) -> dict[str, Any] | None:
     return attrs.asdict(found, filter=lambda field, _: field.name != "steps")
 
 
+_OPTIONS = ("stations", "planes", "drivers", "tolerance", "fair", "name", "ship")
+"""What is no parameter of the form, and is an option of its own."""
+
+
 def _refuse_words(given: Mapping[str, Any], option: str) -> None:
     """Refuse values that are no numbers as they are typed: with a comma, or with another unit."""
     for name, value in given.items():
+        if name in _OPTIONS:
+            raise UsageError(f"--{option} {name}={value}: write --{name} {value}")
         if isinstance(value, str):
             length = option == "set" and not name.endswith("_deg")
             unit = "in m, or one with mm, cm or m behind it" if length else "without a unit"

@@ -170,9 +170,9 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ),
         ValueError,
         [
-            "aim: cannot reach volume 57238.8 m3: best 52698.2 m3 "
+            "volume cannot be brought to 57238.8 m3: the nearest is 52698.2 m3 "
             "(8.73 % of the parent's value less than asked), "
-            "fore_shift and aft_shift at their bounds"
+            "with fore_shift and aft_shift at their bounds; widen them, free another parameter"
         ],
     ),
     (

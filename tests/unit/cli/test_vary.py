@@ -249,3 +249,11 @@ def test_a_dry_run_of_what_is_refused_gives_the_interval(
     assert "admissible draught from " in told[0]
     assert main(["vary", str(hull), "breadth=11", "--dryrun"]) == 2
     assert "--dry-run" in capsys.readouterr().err
+
+
+def test_an_option_that_is_typed_as_a_parameter_is_named(
+    hull: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As it is written then."""
+    assert main(["vary", str(hull), "breadth=10.2", "stations=x"]) == 2
+    assert "write --stations x" in capsys.readouterr().err

@@ -179,8 +179,9 @@ def test_what_bounds_forbid_is_refused_with_their_names_and_the_shortfall() -> N
     assert error.best == best
     assert error.shortfall == 100.0 * (best - targets[0]) / ship.parent[0]
     assert str(error) == (
-        "aim: cannot reach volume 11590.3 m3: best 10855.1 m3 "
-        "(6.98 % of the parent's value less than asked), fore and aft at their bounds"
+        "volume cannot be brought to 11590.3 m3: the nearest is 10855.1 m3 "
+        "(6.98 % of the parent's value less than asked), with fore and aft at their bounds; "
+        "widen them, free another parameter, or ask for less"
     )
 
 
