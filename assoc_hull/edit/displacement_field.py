@@ -569,11 +569,12 @@ def sub_step_count(state: HullState, shift: PointDisplacements) -> int:
     while largest / steps > state.tolerances.substep:
         steps *= 2
     if steps > _STEPS:
+        most = _STEPS * state.tolerances.substep
         raise BadInputError(
             f"points would move by up to {largest:.4g} m",
             f"at {address(state, int(shift.rows[far.argmax()]))}",
-            f"move by less than {_STEPS * state.tolerances.substep:g} m at a time; lengths "
-            "are in m, 50 mm is 0.05",
+            f"ask for less than {100.0 * most / largest:.2g} % of it at a time, so that none moves "
+            f"by more than {most:g} m; lengths are in m, 50 mm is 0.05",
         )
     return steps
 

@@ -10,6 +10,8 @@ from collections import deque
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from assoc_hull.analysis.hydrostatics.floating_body import FloatingPosition
 from assoc_hull.analysis.hydrostatics.record import FIELDS, Hydrostatics, RecordField
 from assoc_hull.analysis.hydrostatics.section_areas import (
@@ -17,7 +19,11 @@ from assoc_hull.analysis.hydrostatics.section_areas import (
     sectional_areas,
 )
 from assoc_hull.edit.explain.causes import Why
+from assoc_hull.geometry.curves import SplineBatch
+from assoc_hull.geometry.fairness.inflections import inflections
 from assoc_hull.hull.hull import Hull
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.tables import HullState
 from assoc_hull.variation.carrying.admissible_values import list_parameters
 
 __all__ = ["describe_fairness", "describe_hydrostatics", "describe_parameters", "describe_why"]
@@ -106,6 +112,19 @@ def _cause(why: Why, moves: Mapping[str, tuple[float, float]]) -> dict[str, Any]
             "stopped": list(why.stopped[:_STOPS]), "causes": []}  # fmt: skip
 
 
+def _bends(state: HullState, names: list[str]) -> list[int]:
+    """Count inflections of curves as the picture marks them: between bends that can be seen."""
+    if not names:
+        return []
+    book = AddressBook(state)
+    known = {book.curve_name(curve): curve for curve in state.live("curves").tolist()}
+    curves = np.array([known[name] for name in names])
+    line = state.curves.line[curves]
+    normals = np.where(state.lines.planar[line][:, None], state.lines.normal[line], np.nan)
+    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+    return [int(count) for count in inflections(batch, normals)[0]]
+
+
 def describe_fairness(hull: Hull) -> dict[str, Any]:
     """Give the waviest lines first, how far (m) battens spring there, and points out of line."""
     found = hull.fairness()
@@ -114,9 +133,12 @@ def describe_fairness(hull: Hull) -> dict[str, Any]:
         if batten is not None
     ]  # fmt: skip
     wavy.sort(key=lambda each: (-each[1].ratio, -each[1].largest, each[0].name))
+    shown = wavy[:_LINES]
+    bends = _bends(hull.state, [record.name for record, _ in shown])
     lines = [
         {"line": record.name, "springs": batten.there, "ratio": batten.ratio, "at": batten.at,
-         "inflections": record.inflections} for record, batten in wavy[:_LINES]
+         "inflections": None if record.inflections is None else count}
+        for (record, batten), count in zip(shown, bends, strict=True)
     ]  # fmt: skip
     doctor = hull.doctor(top=_POINTS)
     return {

@@ -191,3 +191,11 @@ def test_a_screen_that_is_touched_tells_of_fingers(open_page: Open, hull: ah.Hul
     hand.ask("(p, name) => p.store.select(p.store.net.find(name), null)", POINT)
     expect(foot).to_contain_text("press −1 mm and +1 mm")
     expect(foot).not_to_contain_text("arrows")
+
+
+def test_combs_without_a_line_say_what_they_stand_on(open_page: Open, hull: ah.Hull) -> None:
+    """The key does nothing that can be seen as long as no line is chosen."""
+    hand = open_page(hull)
+    for _ in range(2):  # off, and on again
+        hand.page.keyboard.press("k")
+    expect(hand.page.locator("footer")).to_contain_text("Combs stand on the chosen line")

@@ -14,6 +14,7 @@ const toggle = (what, words, key) => ({
   id: what, words, keys: [key], pressed: (page) => page.store.show[what],
   run: (page) => {
     page.store.show[what] = !page.store.show[what];
+    if (what === "combs" && page.store.show.combs && page.store.selection.curve === null) page.say("Combs stand on the chosen line: click one, or choose it under Curve.");
     page.store.changed("hull", "overlay", "panel");
     page.keep();
   },
