@@ -740,15 +740,19 @@ def _known_ends(table: OffsetTable) -> tuple[FloatArray, FloatArray] | None:
     return (np.full_like(stern, table.x[0]) if _ends_flat(table) else stern), stem
 
 
-_FLAT_AREA = 0.25
-"""A last section with more than this part of the greatest area is no stern that was cut off."""
+_FLAT_AREA, _FLAT_WATERLINE = 0.25, 0.5
+"""A last section with more than this part of the greatest area, or half-breadth near the waterline,
+is no stern that was cut off."""
 
 
 def _ends_flat(table: OffsetTable) -> bool:
-    """Tell whether the aftmost section has so much area below the draught that it is a transom."""
+    """Tell whether the aftmost section is so large below the draught that it is a transom."""
     y = np.nan_to_num(table.half_breadth[:, table.z <= (table.draught or table.z[-1])])
+    if not y.size:
+        return False
     area = np.asarray(np.trapezoid(y, table.z[: y.shape[1]], axis=1))
-    return bool(area[0] > _FLAT_AREA * area.max(initial=0.0))
+    parts = ((area, _FLAT_AREA), (y[:, -1], _FLAT_WATERLINE))
+    return any(bool(size[0] > part * size.max(initial=0.0)) for size, part in parts)
 
 
 def _completion(table: OffsetTable) -> Completion:

@@ -638,7 +638,7 @@ def _depth(
     top = float(outline.high[2]) - heights.base
     edge = outline.deck_height(0.5 * (ends.ap + ends.fp)) - heights.base
     told = asked.depth or said.depth
-    if told is not None and outline.deck is not None and abs(told - edge) > _DEPTH * edge:
+    if told and outline.deck is not None and abs(told - edge) > _DEPTH * abs(edge):
         what = f"{told:.6g} m, and the deck edge amidships is at {edge:.6g} m"
         book.suspect("contradiction", "depth", what, told - edge)
     if asked.depth is not None:

@@ -287,3 +287,15 @@ def test_a_row_at_the_head_of_the_stem_closes_it_as_the_note_says(
     assert not [each for each in report.adoption.notes if "is open from" in each]
     assert not [each for each in report.verdict.suspicions if each.kind == "open net"]
     assert ah.Hull(state).mesh().report.sound
+
+
+@pytest.mark.parametrize(
+    ("row", "name"), [("0,1.6,,,,,2.2,2.6,2.9", "transom"), ("0,1.6,,,,,0.6,1.4,2.1", "ST 0")]
+)
+def test_a_stern_that_is_broad_at_the_waterline_is_not_drawn_on(
+    row: str, name: str, tmp_path: Path
+) -> None:
+    """However little of it is under water; a narrow one is."""
+    head, _, *rows = without_deck(BOAT).splitlines()[1:]
+    state, _ = boat(tmp_path, "\n".join(["# m", head, row, *rows]) + "\n")
+    assert name in ah.Hull(state).lines
