@@ -583,7 +583,7 @@ def _loft(maker: Maker) -> list[str]:
     table = maker.state.rows
     # Where a stem runs upright in the plane of a section, its passage may be the run's other end.
     along = np.flatnonzero(table.alive.data & table.contact.data & (table.sign.data == 0))
-    given, near = table.xyz[along].copy(), maker.state.tolerances.coincident
+    given, near = table.xyz[along].copy(), maker.state.tolerances.adoption
     while True:
         missing = loft_all(maker.state, maker.journal)
         away = np.abs(table.xyz[along] - given).max(axis=1, initial=0.0)
