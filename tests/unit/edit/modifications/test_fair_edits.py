@@ -229,7 +229,10 @@ def test_a_fair_edit_takes_no_fade_and_leaves_flats(carrier: Hull) -> None:
 def test_a_refused_fair_edit_leaves_the_hull_as_it_was(carrier: Hull) -> None:
     """A pull of metres is refused; no bit and no step is left of its trials."""
     print_before, steps = carrier.fingerprint, len(carrier.history)
-    with pytest.raises(BadInputError, match="move by less"), carrier.edit("far too much") as edit:
+    with (
+        pytest.raises(BadInputError, match="ask for less than"),
+        carrier.edit("far too much") as edit,
+    ):
         edit.pull("WL 9 x ST 17", 30.0, fair=True)
     assert carrier.fingerprint == print_before
     assert len(carrier.history) == steps

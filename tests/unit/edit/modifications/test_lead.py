@@ -482,7 +482,7 @@ _BAD: dict[str, tuple[Callable[[Edit], object], type[Exception], str]] = {
         BadInputError, "in two places",
     ),
     "metres": (
-        lambda e: e.lead("WL 2.5", [(55.0, 44.6, 2.5)]), BadInputError, "by less",
+        lambda e: e.lead("WL 2.5", [(55.0, 44.6, 2.5)]), BadInputError, "ask for less than",
     ),
     "an end on the profile": (
         lambda e: e.lead("WL 2.5", [("profile x WL 2.5", (1.0, 0.0, 2.5))]),
