@@ -6,12 +6,10 @@ library that is busy outside Python goes on until it comes back; nobody waits fo
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import threading
 from collections import deque
 from collections.abc import Callable
-from functools import partial
 
 import attrs
 
@@ -22,12 +20,42 @@ class _Stopped(BaseException):
     """Raised in a thread whose answer is not wanted any more; nobody may take it for an error."""
 
 
-@attrs.frozen(eq=False)
+@attrs.define(eq=False)
 class _Job:
+    """What one thread does; it is ended once at most, and only inside `run`."""
+
     owner: object
     kind: object
     number: int
     act: Callable[[], None]
+    # A plain lock: Python's own code, where an exception may come, would leave it locked.
+    _gate: threading.Lock = attrs.field(factory=threading.Lock, init=False)
+    _thread: int | None = attrs.field(default=None, init=False)
+    _wanted: bool = attrs.field(default=True, init=False)
+
+    def run(self) -> None:
+        """Do it, unless it was ended before; no exception that ends it leaves this body."""
+        try:
+            with self._gate:
+                if not self._wanted:
+                    return
+                self._thread = threading.get_ident()
+            try:
+                self.act()
+            finally:
+                with self._gate:  # what was to end it until here has come when this is passed
+                    self._thread = None
+        except _Stopped:
+            return
+
+    def end(self) -> None:
+        """End it, from another thread."""
+        with self._gate:
+            if self._wanted and self._thread is not None:
+                ctypes.pythonapi.PyThreadState_SetAsyncExc(
+                    ctypes.c_ulong(self._thread), ctypes.py_object(_Stopped)
+                )
+            self._wanted = False
 
 
 class CopyReaders:
@@ -47,7 +75,7 @@ class CopyReaders:
     def __init__(self, name: str, count: int) -> None:
         self._name, self._count = name, count
         self._waiting = deque[_Job]()
-        self._running = list[tuple[threading.Thread, _Job]]()
+        self._running = list[_Job]()
         self._threads = list[threading.Thread]()
         self._awake = threading.Condition()
         self._open = True
@@ -78,11 +106,9 @@ class CopyReaders:
 
     def _end(self, wanted: Callable[[_Job], bool]) -> None:
         self._waiting = deque(each for each in self._waiting if not wanted(each))
-        for thread, job in self._running:
-            if wanted(job) and thread.ident is not None and thread.is_alive():
-                ctypes.pythonapi.PyThreadState_SetAsyncExc(
-                    ctypes.c_ulong(thread.ident), ctypes.py_object(_Stopped)
-                )
+        for job in self._running:
+            if wanted(job):
+                job.end()
 
     def _begin(self, act: Callable[[], None]) -> threading.Thread:
         thread = threading.Thread(target=act, name=self._name, daemon=True)
@@ -97,13 +123,7 @@ class CopyReaders:
                 if not self._open:
                     return
                 job = self._waiting.popleft()
-                mine = self._begin(partial(_do, job)), job
-                self._running.append(mine)
-            mine[0].join()
+                self._running.append(job)
+            self._begin(job.run).join()
             with self._awake:
-                self._running.remove(mine)
-
-
-def _do(job: _Job) -> None:
-    with contextlib.suppress(_Stopped):
-        job.act()
+                self._running.remove(job)

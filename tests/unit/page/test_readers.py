@@ -1,8 +1,10 @@
 """Answers that are not wanted any more end at once, and no other waits for them."""
 
+import sys
 import threading
 import time
 from collections.abc import Iterator
+from functools import partial
 
 import attrs
 import pytest
@@ -94,3 +96,34 @@ def test_a_thousand_stops_leave_the_thread_at_work(readers: CopyReaders) -> None
     done = threading.Event()
     readers.submit("anna", "list", 1000, done.set)
     assert done.wait(5.0)
+
+
+def test_no_stop_is_told_as_an_error_of_its_thread(
+    readers: CopyReaders, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A short job is ended at its first step, its last one, or just behind it: nothing escapes."""
+    told: list[str] = []
+    monkeypatch.setattr(threading, "excepthook", lambda args: told.append(args.exc_type.__name__))
+    switch, begun = sys.getswitchinterval(), 0
+
+    def short(steps: int) -> None:
+        nonlocal begun
+        begun += 1
+        for _ in range(steps):
+            pass
+
+    sys.setswitchinterval(1e-6)
+    try:
+        for number in range(3000):
+            readers.submit("anna", "list", number, partial(short, number % 50))
+            # A pause that grows lets the stop come before the job, in it and behind it.
+            for _ in range(number):
+                pass
+            readers.stop("anna", number)
+    finally:
+        sys.setswitchinterval(switch)
+    done = threading.Event()
+    readers.submit("anna", "list", 3000, done.set)
+    assert done.wait(5.0)
+    assert begun > 100
+    assert told == []
