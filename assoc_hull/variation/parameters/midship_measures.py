@@ -202,8 +202,7 @@ def _through_three(
 # The midship section.
 
 _LEVEL = 1e-6
-"""m: the bottom is level as far as it rises no more above its lowest place. Also a part of the
-breadth by which the border of a flat may leave its level run."""
+"""m: the bottom is level as far as it rises no more above its lowest place."""
 
 
 def bilge_radius(hull: DrawnCurves) -> MeasuredParameter:
@@ -387,7 +386,7 @@ def _of_flats(hull: DrawnCurves) -> _Ends | None:
     bottoms, sides = hull.flats_of_bottom, hull.flats_of_side
     if not bottoms:
         return None
-    within = _LEVEL * hull.ship.breadth
+    within = _TWO * hull.state.tolerances.adoption
     runs = [_level_run(hull.one(i).xyz, 1, within) for i in bottoms]
     runs += [_level_run(hull.one(i).xyz, 2, within) for i in sides]
     start, end = max(run[0] for run in runs), min(run[1] for run in runs)
@@ -400,16 +399,19 @@ def _of_flats(hull: DrawnCurves) -> _Ends | None:
 def _level_run(xyz: FloatArray, axis: int, within: float) -> tuple[float, float]:
     """Give the longest stretch in x along which y (axis 1) or z (axis 2) of a border stays.
 
-    It need not be the broadest or lowest: a bilge that was made larger is so amidships only.
+    It need not be the broadest or lowest: a bilge that was made larger is so amidships only. All of
+    it lies within a distance (m) of one level: many small steps add up to none.
     """
-    level = np.concatenate([[False], np.abs(np.diff(xyz[:, axis])) <= within, [False]])
-    step = np.diff(level.astype(np.int8))
-    begin, end = xyz[np.flatnonzero(step == 1), 0], xyz[np.flatnonzero(step == -1), 0]
-    if not len(begin):
-        return 0.0, 0.0
-    longest = int(np.abs(end - begin).argmax())
-    ends = sorted((float(begin[longest]), float(end[longest])))
-    return ends[0], ends[1]
+    level, x = xyz[:, axis], xyz[:, 0]
+    off = np.abs(level[:, None] - level)
+    best = (0.0, 0.0)
+    begin = 0
+    for end in range(len(x)):
+        while (off[begin : end + 1, end] > within).any():
+            begin += 1
+        if abs(x[end] - x[begin]) > best[1] - best[0]:
+            best = min(x[begin], x[end]), max(x[begin], x[end])
+    return float(best[0]), float(best[1])
 
 
 def _of_sections(hull: DrawnCurves) -> _Ends | str:

@@ -24,6 +24,7 @@ from assoc_hull.shipped import bulk_carrier_207k_form as form
 from assoc_hull.variation.fields.bounded_functions import BlendChain
 from assoc_hull.variation.fields.layers import CornerLayer
 from assoc_hull.variation.parameters.measurement import DrawnCurves, MeasuredParameter, Measures
+from assoc_hull.variation.parameters.midship_measures import _level_run
 from assoc_hull.variation.parameters.parameter_measures import (
     AMPLITUDES,
     MEASURES,
@@ -355,6 +356,24 @@ def test_sections_are_equal_as_far_as_adoption_knows_them(
     state.tolerances = attrs.evolve(state.tolerances, adoption=adoption)
     found = measure_all(state, ["parallel_body_start", "parallel_body_end"])
     assert (tuple(found.values()) or None) == ends
+
+
+@pytest.mark.parametrize("radius", [2.3, 2.37, 2.6])
+def test_another_bilge_radius_leaves_the_fore_end_of_the_parallel_body(
+    bulk_carrier: ah.Hull, radius: float
+) -> None:
+    """Beyond the last section with an arc the border of the side is a tenth of a millimetre off."""
+    varied = bulk_carrier.vary(set={"bilge_radius": radius})
+    assert varied.hull.measure()["parallel_body_end"] == 205.5
+
+
+def test_many_small_steps_of_a_border_are_no_level_run() -> None:
+    """Each is within the tolerance, all together are not."""
+    xyz = np.zeros((12, 3))
+    xyz[:, 0] = np.arange(12.0)
+    xyz[4:, 2] = 6e-4 * np.arange(8.0)
+    assert _level_run(xyz, 2, 7e-4) == (0.0, 5.0)
+    assert _level_run(xyz[::-1], 2, 7e-4) == (0.0, 5.0)
 
 
 def test_the_dtc_is_measured_at_its_own_length(dtc: ah.Hull) -> None:
