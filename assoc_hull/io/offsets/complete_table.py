@@ -14,6 +14,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.analysis.net.surface_layout import BROAD_END
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
@@ -27,7 +28,7 @@ from assoc_hull.io.offsets.net import (
     net_of_lines,
     particulars_of_table,
 )
-from assoc_hull.io.offsets.table import OffsetTable
+from assoc_hull.io.offsets.table import OffsetTable, half_section_areas
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import HullState, Particulars
 from assoc_hull.tolerance import Tolerances
@@ -740,19 +741,20 @@ def _known_ends(table: OffsetTable) -> tuple[FloatArray, FloatArray] | None:
     return (np.full_like(stern, table.x[0]) if _ends_flat(table) else stern), stem
 
 
-_FLAT_AREA, _FLAT_WATERLINE = 0.25, 0.5
-"""A last section with more than this part of the greatest area, or half-breadth near the waterline,
-is no stern that was cut off."""
+_FLAT_AREA = 0.25
+"""A last section with more than this part of the greatest area is no stern that was cut off."""
 
 
 def _ends_flat(table: OffsetTable) -> bool:
     """Tell whether the aftmost section is so large below the draught that it is a transom."""
-    y = np.nan_to_num(table.half_breadth[:, table.z <= (table.draught or table.z[-1])])
-    if not y.size:
+    under = table.z <= (table.draught or table.z[-1])
+    if not under.any():
         return False
-    area = np.asarray(np.trapezoid(y, table.z[: y.shape[1]], axis=1))
-    parts = ((area, _FLAT_AREA), (y[:, -1], _FLAT_WATERLINE))
-    return any(bool(size[0] > part * size.max(initial=0.0)) for size, part in parts)
+    area = half_section_areas(table.half_breadth, table.z, table.draught)
+    beam = np.nan_to_num(table.half_breadth[:, under][:, -1])  # of the waterline next to it
+    return any(
+        bool(size[0] > part * size.max()) for size, part in ((area, _FLAT_AREA), (beam, BROAD_END))
+    )
 
 
 def _completion(table: OffsetTable) -> Completion:

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polylines.operations import runs_where
 from assoc_hull.io.offsets.suspicions import ExaminedTable, predicted_values
+from assoc_hull.io.offsets.table import half_section_areas
 from assoc_hull.io.reports import Notebook
 
-__all__ = ["compare_areas", "compare_beams", "examine_lines", "section_areas"]
+__all__ = ["compare_areas", "compare_beams", "examine_lines"]
 
 
 def examine_lines(patient: ExaminedTable, book: Notebook) -> None:
@@ -28,17 +29,6 @@ def examine_lines(patient: ExaminedTable, book: Notebook) -> None:
     _gaps(patient, book)
     _cut_off(patient, book)
     _columns(patient, book)
-
-
-def section_areas(patient: ExaminedTable, top: float | None = None) -> FloatArray:
-    """Give the areas of half sections up to a height, (s,), m2, by trapezoids; blanks count 0."""
-    y = np.nan_to_num(patient.y)
-    if top is None or top >= patient.z[-1]:
-        return np.asarray(np.trapezoid(y, patient.z, axis=1))
-    below = patient.z < top
-    z = np.append(patient.z[below], top)
-    at_top = np.array([np.interp(top, patient.z, row) for row in y])
-    return np.asarray(np.trapezoid(np.column_stack([y[:, below], at_top]), z, axis=1))
 
 
 # --------------------------------------------------------------------------------------
@@ -56,7 +46,7 @@ def _doubled(patient: ExaminedTable, book: Notebook) -> None:
     y, half = np.nan_to_num(patient.y), patient.breadth / 2.0
     step = np.abs(np.diff(y, axis=0))
     same = (step <= 0.2 * patient.rounding).all(axis=1) & (y[1:].max(axis=1) > 0.0)
-    change, area = step.mean(axis=1), section_areas(patient)
+    change, area = step.mean(axis=1), half_section_areas(patient.y, patient.z)
     empty = (patient.y == 0.0).all(axis=1)
     for i in np.flatnonzero(empty[1:] & empty[:-1]):
         names = f"stations {patient.stations[i]} and {patient.stations[i + 1]}"
@@ -126,7 +116,7 @@ def _misfits(patient: ExaminedTable, book: Notebook) -> None:
 
 def _along_hull(patient: ExaminedTable) -> tuple[FloatArray, FloatArray, int]:
     """Give x and areas over the greatest, with one nil at either end, and the first station."""
-    area = section_areas(patient)
+    area = half_section_areas(patient.y, patient.z)
     wet = np.flatnonzero(area > 0.0)
     if not len(wet):
         return patient.x[:0], area[:0], 0
@@ -191,7 +181,7 @@ _SHORT = 0.01
 
 def _cut_off(patient: ExaminedTable, book: Notebook) -> None:
     """Note a table that ends in a section short of the perpendicular."""
-    area = section_areas(patient, patient.draught)
+    area = half_section_areas(patient.y, patient.z, patient.draught)
     largest = float(area.max())
     if len(area) < 5 or largest <= 0.0:
         return
@@ -290,7 +280,7 @@ def compare_areas(patient: ExaminedTable, told: FloatArray | None, book: Noteboo
     """Compare a column of sectional areas, or of their ratios, with the sections."""
     if told is None or not np.isfinite(told).any() or np.nanmax(told) <= 0.0:
         return
-    area = section_areas(patient, patient.draught)
+    area = half_section_areas(patient.y, patient.z, patient.draught)
     found = area / max(float(area.max()), 1e-300)
     wanted = told / np.nanmax(told)
     off = found - wanted
@@ -349,7 +339,7 @@ def examine_bottom(patient: ExaminedTable, book: Notebook) -> None:
     slope = np.where(above > first, (y[rows, above] - y[rows, first]) / rise, 0.0)
     flat = np.clip(y[rows, first] - gap * np.maximum(slope, 0.0), 0.0, None)
     open_area = flat * gap  # both sides, between a straight line and a flat bottom
-    area = 2.0 * section_areas(patient, patient.draught)
+    area = 2.0 * half_section_areas(patient.y, patient.z, patient.draught)
     volume, doubt = (float(np.trapezoid(each, patient.x)) for each in (area, open_area))
     # Sections of no area are told elsewhere: of nothing no part can be missing.
     if not volume > 0.0 or not doubt > _OPEN_BOTTOM * volume:

@@ -14,6 +14,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.analysis.net.surface_layout import BROAD_END
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport, adopt
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, freeze
@@ -522,9 +523,6 @@ def lines_of_table(
 TRANSOM, BOW_END = "transom", "bow end"
 """Names of the edges of flat ends, aft and forward."""
 
-_FLAT_END = 0.5
-"""A last station as broad as this part of the ship, at which the profile stops, is a flat end."""
-
 
 def _edge_of_end(
     line: LineSource, profile: LineSource, table: OffsetTable, near: float
@@ -540,7 +538,7 @@ def _edge_of_end(
         foot[0] == table.x[end] and np.abs(foot - profile.points[end]).max() <= near
         for end in (0, -1)
     )  # fmt: skip
-    if not (aft or fore) or broad < _FLAT_END * np.nanmax(table.half_breadth):
+    if not (aft or fore) or broad < BROAD_END * np.nanmax(table.half_breadth):
         return line
     return attrs.evolve(
         line, group="boundary", family="boundary", name=TRANSOM if aft else BOW_END,

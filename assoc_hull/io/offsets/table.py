@@ -23,7 +23,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.tolerance import at_full_length
 
-__all__ = ["OffsetTable"]
+__all__ = ["OffsetTable", "half_section_areas"]
 
 
 @attrs.frozen(eq=False)
@@ -105,3 +105,20 @@ class OffsetTable:
         arrays = (self.x, self.z, self.half_breadth, self.buttock_y, self.rounding)
         maybe = (self.keel, self.deck_height, self.deck_half_breadth, self.buttock_height)
         freeze(*arrays, *(a for a in (*maybe, self.station, self.level) if a is not None))
+
+
+def half_section_areas(
+    half_breadth: FloatArray, z: FloatArray, top: float | None = None
+) -> FloatArray:
+    """Give the areas of half sections up to a height, (s,), m2, by trapezoids.
+
+    Of half-breadths (s, w), m, at heights z (w,), m, ascending; blanks count 0.
+    """
+    y = np.nan_to_num(half_breadth)
+    if top is None or top >= z[-1]:
+        return np.asarray(np.trapezoid(y, z, axis=1))
+    below = z < top
+    at_top = np.array([np.interp(top, z, row) for row in y])
+    return np.asarray(
+        np.trapezoid(np.column_stack([y[:, below], at_top]), np.append(z[below], top), axis=1)
+    )

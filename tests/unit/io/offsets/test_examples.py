@@ -124,7 +124,7 @@ def test_where_the_stations_of_an_offset_table_lie_order() -> None:
 
 def test_a_table_of_offsets_as_lines_what_it_says() -> None:
     """A table of offsets as lines: what it says and no more, for hulls no rule completes."""
-    text = "# unit: m\nx_m,z_keel,wl_1,wl_2\n0,1,0,2\n5,0.5,3,4\n9,0.5,3,5\n14,,0,2\n"
+    text = "# unit: m\nx_m,z_keel,wl_1,wl_2\n0,1,0,1\n5,0.5,3,4\n9,0.5,3,5\n14,,0,2\n"
     table, _ = read_offsets(text)
     lines = lines_of_table(table)
     names = ["ST 0", "ST 5", "ST 9", "ST 14", "WL 1", "profile", "deck edge"]
