@@ -17,7 +17,7 @@ from assoc_hull.variation.fields.layers import FieldLayer, Layer, Rake
 from assoc_hull.variation.fields.space_map import VariationMap
 from assoc_hull.variation.parameters.catalogue import CATALOGUE
 from assoc_hull.variation.parameters.field_layout import Layout, Share
-from assoc_hull.variation.parameters.parameter_fields import main_layer
+from assoc_hull.variation.parameters.parameter_fields import body_length_field_beside, main_layer
 from assoc_hull.variation.parameters.parent import Parent
 
 __all__ = ["STEEPEST", "compose_map", "conflicts", "refuse_clashes", "solve_field_sizes"]
@@ -41,7 +41,8 @@ _CLASHES = (
     ("flat_of_bottom", "deadrise_deg", "a bottom with deadrise is not flat"),
     ("bulb_area", "bulb_half_breadth", "both widen the section at FP"),
 )
-_BODY = ("parallel_body_start", "parallel_body_end", "parallel_body_length")
+_LENGTH = "parallel_body_length"
+_BODY = ("parallel_body_start", "parallel_body_end", _LENGTH)
 _DECKS = ("depth", "deck_height", "both set the deck edge amidships")
 """No contradiction where the height is asked for at a perpendicular."""
 
@@ -102,12 +103,21 @@ def compose_map(parent: Parent, asked: Mapping[str, float], layout: Layout) -> V
 def _shares(parent: Parent, asked: Mapping[str, float], layout: Layout) -> list[Share]:
     """Give what parameters put into a layer of fields; nothing where a value is as it was."""
     found = list[Share]()
-    for name, value in asked.items():
-        lays = CATALOGUE[name].lays
-        share = None if lays is None else lays(parent, value, layout)
+    for name in asked:
+        share = _laid_out(parent, name, asked, layout)
         if isinstance(share, Share) and share.change != 0.0:
             found.append(share)
     return found
+
+
+def _laid_out(
+    parent: Parent, name: str, asked: Mapping[str, float], layout: Layout
+) -> Share | Layer | None:
+    """Lay out one parameter beside the others that are asked for."""
+    if name == _LENGTH and len(asked.keys() & _BODY) > 1:
+        return body_length_field_beside(parent, asked, layout)
+    lays = CATALOGUE[name].lays
+    return None if lays is None else lays(parent, asked[name], layout)
 
 
 def _scaled(parent: Parent, main: FieldLayer, asked: Mapping[str, float]) -> Parent:

@@ -34,6 +34,7 @@ from assoc_hull.variation.parameters.parent import Parent, cannot_vary
 __all__ = [
     "aft_shift_field",
     "bilge_radius_layer",
+    "body_length_field_beside",
     "bossing_radius_field",
     "bow_fade",
     "bulb_half_breadth_field",
@@ -217,6 +218,22 @@ def parallel_body_length_field(parent: Parent, asked: float, layout: Layout) -> 
     share = _shift(name, chain, change, end, layout)
     places = np.array([[end, 0.0, 0.0], [start, 0.0, 0.0]])
     return attrs.evolve(share, places=places, weights=np.array([1.0, -1.0]))
+
+
+def body_length_field_beside(parent: Parent, asked: Mapping[str, float], layout: Layout) -> Share:
+    """Give the length by the end that is not asked for, where one of them is.
+
+    Moved by half each way, both ends would have to undo what is asked of the one: fields of
+    several times the change, which work against each other.
+    """
+    name, length = "parallel_body_length", asked["parallel_body_length"]
+    start, end = _middle(parent, name)
+    if "parallel_body_start" in asked:
+        nodes, at, wanted = [start, end, parent.length], end, asked["parallel_body_start"] + length
+    else:
+        nodes, at, wanted = [0.0, start, end], start, asked["parallel_body_end"] - length
+    chain = BlendChain.through(nodes, [0.0, 1.0, 0.0], layout.curve, name)
+    return _shift(name, chain, wanted - at, at, layout)
 
 
 def fore_shift_field(parent: Parent, asked: float, layout: Layout) -> Share:

@@ -128,6 +128,26 @@ def test_a_parameter_alone_leaves_the_rest_of_the_ship_to_the_bit(ship: Parent, 
     assert (vmap(xyz) != xyz).any()
 
 
+@pytest.mark.parametrize("end", ["parallel_body_start", "parallel_body_end"])
+@pytest.mark.parametrize("moves", [(1.0, -1.0), (1.0, 0.5), (-2.0, 3.0), (0.3, 0.3), (0.0, 0.4)])
+def test_a_length_of_the_parallel_body_beside_an_end_moves_the_other_end(
+    ship: Parent, end: str, moves: tuple[float, float]
+) -> None:
+    """Nothing moves farther than the ends do: by halves each end would undo the other's."""
+    before = np.array([ship.places["body start"][0], ship.places["body end"][0]])
+    after = before + moves
+    asked = {
+        end: float(after[int(end == "parallel_body_end")]),
+        "parallel_body_length": float(after[1] - after[0]),
+    }
+    vmap = compose_map(ship, asked, Layout())
+    x = np.linspace(0.0, ship.length, 301)
+    moved = vmap(np.column_stack([x, np.zeros(301), np.full(301, 9.0)]))[:, 0] - x
+    ends = vmap(np.array([[before[0], 0.0, 9.0], [before[1], 0.0, 9.0]]))[:, 0]
+    assert ends == pytest.approx(after, abs=1e-9)
+    assert np.abs(moved).max() <= max(map(abs, moves)) + 1e-9
+
+
 @pytest.mark.parametrize(("one", "other"), [("depth", "deck_height"),
                                             ("bilge_radius", "flat_of_bottom"),
                                             ("bilge_radius", "deadrise_deg"),
