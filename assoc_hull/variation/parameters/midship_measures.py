@@ -387,31 +387,67 @@ def _of_flats(hull: DrawnCurves) -> _Ends | None:
     if not bottoms:
         return None
     within = _TWO * hull.state.tolerances.adoption
-    runs = [_level_run(hull.one(i).xyz, 1, within) for i in bottoms]
-    runs += [_level_run(hull.one(i).xyz, 2, within) for i in sides]
-    start, end = max(run[0] for run in runs), min(run[1] for run in runs)
+    runs = [_level_run(hull, i, 1, within) for i in bottoms]
+    runs += [_level_run(hull, i, 2, within) for i in sides]
+    start, end = _common_end(hull, runs, 0, within), _common_end(hull, runs, 1, within)
     if end - start < SHORTEST_BODY * hull.length - _LEVEL:
         return None
     how = "where the borders of the flats of bottom and side run level"
     return _Ends(start, end, how, (*bottoms, *sides))
 
 
-def _level_run(xyz: FloatArray, axis: int, within: float) -> tuple[float, float]:
+@attrs.frozen(eq=False)
+class _LevelRun:
+    """Ends in x, m, of the level stretch of a border, and its y (axis 1) or z (axis 2) at both."""
+
+    curve: int
+    axis: int
+    ends: tuple[float, float]
+    level: tuple[float, float]
+
+
+def _level_run(hull: DrawnCurves, curve: int, axis: int, within: float) -> _LevelRun:
     """Give the longest stretch in x along which y (axis 1) or z (axis 2) of a border stays.
 
     It need not be the broadest or lowest: a bilge that was made larger is so amidships only. All of
     it lies within a distance (m) of one level: many small steps add up to none.
     """
+    xyz = hull.one(curve).xyz
     level, x = xyz[:, axis], xyz[:, 0]
     off = np.abs(level[:, None] - level)
-    best = (0.0, 0.0)
-    begin = 0
+    begin, best = 0, (0, 0)
     for end in range(len(x)):
         while (off[begin : end + 1, end] > within).any():
             begin += 1
-        if abs(x[end] - x[begin]) > best[1] - best[0]:
-            best = min(x[begin], x[end]), max(x[begin], x[end])
-    return float(best[0]), float(best[1])
+        if abs(x[end] - x[begin]) > abs(x[best[1]] - x[best[0]]):
+            best = begin, end
+    aft, fore = sorted(best, key=lambda i: float(x[i]))
+    return _LevelRun(
+        curve, axis, (float(x[aft]), float(x[fore])), (float(level[aft]), float(level[fore]))
+    )
+
+
+def _common_end(hull: DrawnCurves, runs: Sequence[_LevelRun], end: int, within: float) -> float:
+    """Give the end of what all borders have in common: 0 the after, 1 the fore one.
+
+    It is where one of them leaves its level, as far out as the others are still on theirs: that
+    these have no defining point there tells nothing.
+    """
+    out = sorted({run.ends[end] for run in runs}, reverse=end == 0)
+    found = out[0]
+    for x in out[1:]:
+        inner = [run for run in runs if (run.ends[end] > x) == (end == 0) and run.ends[end] != x]
+        between = found + (x - found) * np.array([1.0, 0.5])
+        if not all(_still_level(hull, run, end, at, within) for run in inner for at in between):
+            break
+        found = x
+    return found
+
+
+def _still_level(hull: DrawnCurves, run: _LevelRun, end: int, x: float, within: float) -> bool:
+    """Tell whether a border is on its level at a place x beyond its last defining point there."""
+    places = hull.across([run.curve], 0, x).xyz
+    return bool((np.abs(places[:, run.axis] - run.level[end]) <= within).any())
 
 
 def _of_sections(hull: DrawnCurves) -> _Ends | str:
