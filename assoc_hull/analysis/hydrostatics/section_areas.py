@@ -21,8 +21,8 @@ from assoc_hull.analysis.hydrostatics.flotation import Flotation, body_of, flota
 from assoc_hull.analysis.hydrostatics.tunnel import TunnelledBody
 from assoc_hull.analysis.net.curve_net import flat_ends_below, station_planes
 from assoc_hull.analysis.net.surface_layout import areas_between, strip_extents
-from assoc_hull.arguments import integer, numbers
-from assoc_hull.errors import BadInputError, OutOfRangeError
+from assoc_hull.arguments import integer, numbers, shown
+from assoc_hull.errors import BadInputError, OutOfRangeError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, IntArray, IsoCurves, Strips, freeze
 from assoc_hull.geometry.floating.immersed_strips import prepare_strips
 from assoc_hull.geometry.floating.immersion import (
@@ -450,9 +450,14 @@ def bonjean(hull: HasState, levels: int | ArrayLike = 41) -> Bonjean:
 def _heights(levels: int | ArrayLike, low: float, high: float) -> FloatArray:
     """Give the heights that are asked for, (n,), m, or so many from end to end."""
     several = (
-        levels.ndim > 0 if isinstance(levels, np.ndarray) else isinstance(levels, list | tuple)
+        levels.ndim > 0
+        if isinstance(levels, np.ndarray)
+        else isinstance(levels, list | tuple | range)
     )
     if not several:
+        if not isinstance(levels, int | np.integer):
+            remedy = "give a whole number of levels, or their heights in m as a list"
+            raise WrongTypeError(f"levels is {shown(levels)}", _WHERE, remedy)
         return np.linspace(low, high, integer(levels, "levels", _WHERE, least=2, most=1000))
     z = np.array(numbers(levels, "levels", _WHERE))
     if not len(z) or (np.diff(z) <= 0.0).any():

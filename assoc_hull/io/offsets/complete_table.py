@@ -14,7 +14,6 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.net.surface_layout import BROAD_END
 from assoc_hull.edit.adoption.adopt_lines import AdoptionReport
 from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
@@ -24,6 +23,7 @@ from assoc_hull.io.offsets.net import (
     Completion,
     adopt_completed,
     at_full_size,
+    flat_ends,
     held_up,
     net_of_lines,
     particulars_of_table,
@@ -643,8 +643,16 @@ def _ends_left(table: OffsetTable, state: HullState, profile: FloatArray) -> Ite
                 f"{place[2]:.6g} m up to the deck at {deck:.6g} m: give one more station {way}, "
                 f"where it meets the deck, with {_at_the_deck(table, float(deck))}; or, where it "
                 f"is upright, a station of zeros a little {'abaft' if row == 0 else 'forward of'} "
-                "the last"
+                f"the last{_under_water(table, row)}"
             )
+
+
+def _under_water(table: OffsetTable, row: int) -> str:
+    """Say that the immersed part of an end that is open counts as no transom."""
+    area = 2.0 * float(half_section_areas(table.half_breadth, table.z, table.draught)[row])
+    if not area > 0.0:
+        return ""
+    return f"; some {area:.2g} m2 of it are under water and count as no transom (A_T is 0)"
 
 
 def _at_the_deck(table: OffsetTable, deck: float) -> str:
@@ -733,33 +741,21 @@ def _known_ends(table: OffsetTable) -> tuple[FloatArray, FloatArray] | None:
     """Give where waterlines end, None where the table has no heights of the keel, or tells none."""
     if table.keel is None:
         return None
+    aft, fore = flat_ends(table)
     try:
-        stern, stem = end_contours(table)
+        stern = np.full(len(table.z), table.x[0]) if aft else stern_contour(table, _closing(table))
+        return stern, np.full(len(table.z), table.x[-1]) if fore else stem_contour(table)
     except BadInputError:
         return None
-    # Waterlines that end in a broad section under water are not drawn on: she ends flat there.
-    return (np.full_like(stern, table.x[0]) if _ends_flat(table) else stern), stem
 
 
-_FLAT_AREA = 0.25
-"""A last section with more than this part of the greatest area is no stern that was cut off."""
-
-
-def _ends_flat(table: OffsetTable) -> bool:
-    """Tell whether the aftmost section is so large below the draught that it is a transom."""
-    under = table.z <= (table.draught or table.z[-1])
-    if not under.any():
-        return False
-    area = half_section_areas(table.half_breadth, table.z, table.draught)
-    beam = np.nan_to_num(table.half_breadth[:, under][:, -1])  # of the waterline next to it
-    return any(
-        bool(size[0] > part * size.max()) for size, part in ((area, _FLAT_AREA), (beam, BROAD_END))
-    )
+def _closing(table: OffsetTable) -> float:
+    return CLOSING if table.closing is None else table.closing
 
 
 def _completion(table: OffsetTable) -> Completion:
-    stern, stem = end_contours(table)
-    profile, kinds = centre_profile(table)
+    stern, stem = end_contours(table, _closing(table))
+    profile, kinds = centre_profile(table, _closing(table))
     # Sections begin on the profile: a stern or stem of few points may not sink below the keel.
     kinds = held_up(LineSource.make("boundary", "profile", profile, kind=kinds.tolist()), 2).kind
     border = flat_of_side(table).border

@@ -26,7 +26,7 @@ from assoc_hull.io.lines.raw_lines import plane_name
 from assoc_hull.io.lines.slices import ASSOCIATIONS
 from assoc_hull.io.offsets.flat_runs import straight_runs_of
 from assoc_hull.io.offsets.knuckles import knuckles_of_table
-from assoc_hull.io.offsets.table import OffsetTable
+from assoc_hull.io.offsets.table import OffsetTable, half_section_areas
 from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.tables import HullState, Particulars
@@ -38,6 +38,7 @@ __all__ = [
     "Completion",
     "adopt_completed",
     "at_full_size",
+    "flat_ends",
     "held_up",
     "lines_of_table",
     "net_from_offsets",
@@ -524,6 +525,28 @@ TRANSOM, BOW_END = "transom", "bow end"
 """Names of the edges of flat ends, aft and forward."""
 
 
+_FLAT_AREA = 0.25
+"""A last section with more than this part of the greatest area is no stern that was cut off."""
+
+
+def flat_ends(table: OffsetTable) -> tuple[bool, bool]:
+    """Tell whether the ship ends flat in her aftmost station, and in her foremost one.
+
+    No waterline goes on beyond a flat end. The keel has to end there, in a section that is large
+    below the draught, or broad next to it.
+    """
+    if table.keel is None:
+        return False, False
+    y = np.nan_to_num(table.half_breadth)
+    under = table.z <= (table.draught or table.z[-1])
+    area = half_section_areas(y, table.z, table.draught)
+    beam = y[:, under][:, -1] if under.any() else np.zeros(len(y))
+    known = np.isfinite(table.keel)
+    broad = (beam > 0.0) & (beam >= BROAD_END * beam.max())
+    flat = known & ((area > _FLAT_AREA * area.max()) | broad)
+    return bool(flat[0]), bool(flat[-1])
+
+
 def _edge_of_end(
     line: LineSource, profile: LineSource, table: OffsetTable, near: float
 ) -> LineSource:
@@ -533,12 +556,15 @@ def _edge_of_end(
     """
     if line.group != "sections":
         return line
-    foot, broad = line.points[0], float(line.points[:, 1].max())
+    foot = line.points[0]
+    broad = float(line.points[:, 1].max()) >= BROAD_END * np.nanmax(table.half_breadth)
     aft, fore = (
-        foot[0] == table.x[end] and np.abs(foot - profile.points[end]).max() <= near
-        for end in (0, -1)
-    )  # fmt: skip
-    if not (aft or fore) or broad < BROAD_END * np.nanmax(table.half_breadth):
+        (flat or broad)
+        and foot[0] == table.x[end]
+        and np.abs(foot - profile.points[end]).max() <= near
+        for flat, end in zip(flat_ends(table), (0, -1), strict=True)
+    )
+    if not (aft or fore):
         return line
     return attrs.evolve(
         line, group="boundary", family="boundary", name=TRANSOM if aft else BOW_END,

@@ -15,7 +15,8 @@ import numpy as np
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.lines.ship_frame import ShipFrame, StatedPlaces
-from assoc_hull.io.offsets.complete_table import stem_contour, stern_contour
+from assoc_hull.io.offsets.complete_table import CLOSING, stem_contour, stern_contour
+from assoc_hull.io.offsets.net import flat_ends
 from assoc_hull.io.offsets.table import OffsetTable
 from assoc_hull.io.placing.frame import find_frame
 from assoc_hull.io.placing.options import FileAxes, FrameOptions
@@ -138,9 +139,10 @@ def _keel_and_ends(table: OffsetTable, keel: FloatArray) -> FloatArray:
 
 def _end_places(table: OffsetTable) -> list[FloatArray]:
     """Give where each waterline ends, forward and, where the table tells, aft."""
-    found = [stem_contour(table)]
+    aft, fore = flat_ends(table)
+    found = [np.full(len(table.z), table.x[-1]) if fore else stem_contour(table)]
     try:
-        found.append(stern_contour(table))
+        found.append(np.full(len(table.z), table.x[0]) if aft else stern_contour(table))
     except BadInputError:  # the run of the table tells no stern: its stations do
         return found
     return found
@@ -151,9 +153,12 @@ def _shifted(table: OffsetTable, frame: ShipFrame) -> OffsetTable:
     sizes: dict[str, Any] = {"length": frame.length, "draught": frame.draught, "depth": frame.depth}
     if frame.origins["draught"] == "stated" and table.draught is None:
         sizes.pop("draught")
+    x, z = frame.shift if frame.moves else (0.0, 0.0)
+    if x or frame.length != table.length:
+        # A stern that is drawn goes on as far as it did when the perpendiculars were found by it.
+        sizes["closing"] = (CLOSING * table.length - x) / frame.length
     if not frame.moves:
         return attrs.evolve(table, **sizes)
-    x, z = frame.shift
     heights = ("keel", "deck_height", "buttock_height")
     moved: dict[str, Any] = {
         name: getattr(table, name) + z for name in heights if getattr(table, name) is not None

@@ -61,6 +61,9 @@ class OffsetTable:
     stated : mapping of str to float
         What the file says of the hull as a whole: "Lpp", "B", "T", "D" (m), "L/B", "B/T", "CB",
         "CM", "CP", "CW"; those that it says.
+    closing : float or None
+        Overhang of the waterline at the draught abaft the AP, as a part of the length, where a
+        stern is drawn beyond the last station; None: that of Series 60.
     """
 
     name: str
@@ -80,6 +83,7 @@ class OffsetTable:
     station: FloatArray | None = None
     level: FloatArray | None = None
     stated: Mapping[str, float] = attrs.field(factory=dict)
+    closing: float | None = None
 
     def at_full_length(self, factor: float) -> OffsetTable:
         """Give the table of a hull with a factor of lengths as that of the hull of 100 m."""

@@ -10,6 +10,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.analysis.hydrostatics.section_areas import bonjean, section_areas
+from assoc_hull.errors import WrongTypeError
 from assoc_hull.geometry.curves import IsoCurves
 from assoc_hull.geometry.floating.immersion import FloatingPlanes
 from assoc_hull.geometry.floating.sections import sections_and_moments_below
@@ -85,3 +86,12 @@ def test_heights_that_are_given_are_those_of_the_curves() -> None:
     for wrong in ([5.0, 2.5], [], [2.5, 2.5], [-1.0, 2.0], [2.0, 40.0], [np.nan]):
         with pytest.raises(ah.AssocHullError):
             hull.bonjean(wrong)
+
+
+def test_a_number_that_counts_no_levels_is_told_that_heights_may_be_listed() -> None:
+    """A height alone is no count; a range of heights is a list."""
+    hull = ah.examples.wigley()
+    with pytest.raises(WrongTypeError, match="or their heights in m as a list"):
+        hull.bonjean(3.0)
+    curves = hull.bonjean(range(1, 5))
+    assert curves.z.tolist() == [1.0, 2.0, 3.0, 4.0]

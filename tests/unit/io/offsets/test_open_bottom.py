@@ -299,3 +299,57 @@ def test_a_stern_that_is_broad_at_the_waterline_is_not_drawn_on(
     head, _, *rows = without_deck(BOAT).splitlines()[1:]
     state, _ = boat(tmp_path, "\n".join(["# m", head, row, *rows]) + "\n")
     assert name in ah.Hull(state).lines
+
+
+def scow(*, power: float, stern: float, bow: float) -> str:
+    """A hull of 50 m with V sections and a rising keel at both ends; parts of the breadth there."""
+    x, z = np.linspace(0.0, 50.0, 11), np.arange(7.0)
+    part = np.interp(x, [0.0, 25.0, 50.0], [stern, 1.0, bow])
+    low = 1.5 * np.clip(np.abs(x - 25.0) / 10.0 - 1.5, 0.0, 1.0) ** 2
+    rows = ["x_m," + ",".join(f"WL {each:g} m" for each in z) + ",keel"]
+    for each, b, k in zip(x, 5.0 * part, low, strict=True):
+        over = np.clip((z - k) / (6.0 - k), 0.0, None)
+        cells = ["" if h < k else f"{y:.4f}" for h, y in zip(z, b * over**power, strict=True)]
+        rows.append(",".join([f"{each:g}", *cells, f"{k:.4f}"]))
+    return "\n".join(rows) + "\n"
+
+
+@pytest.mark.parametrize("length", [None, 50.0])
+def test_perpendiculars_stand_at_flat_ends_and_not_beyond(
+    length: float | None, tmp_path: Path
+) -> None:
+    """The stem was drawn on by 5 m forward of a flat bow: the middle of a scow was 5 m off."""
+    path = tmp_path / "scow.csv"
+    path.write_text(scow(power=1.0, stern=0.7, bow=0.7))
+    state, report = import_hull(path, ImportOptions(length=length, draught=3.0))
+    hull = ah.Hull(state)
+    assert {"transom", "bow end"} <= set(hull.lines)
+    there = hull.hydrostatics(on_error="report")
+    assert (state.particulars.length, there.lwl) == pytest.approx((50.0, 50.0), abs=1e-6)
+    assert there.lcb == pytest.approx(25.0, abs=1e-3)
+    assert not [each for each in report.verdict.suspicions if "stem meets" in each.what]
+
+
+@pytest.mark.parametrize("power", [0.5, 1.0])
+@pytest.mark.parametrize("stern", [0.2, 0.45, 0.7])
+def test_a_transom_and_the_after_perpendicular_are_found_by_one_rule(
+    power: float, stern: float, tmp_path: Path
+) -> None:
+    """The edge was made at the last station, and the AP was put where waterlines went on to."""
+    path = tmp_path / "boat.csv"
+    path.write_text(scow(power=power, stern=stern, bow=0.0))
+    state, _ = import_hull(path, ImportOptions(draught=3.0))
+    there = ah.Hull(state).hydrostatics(on_error="report")
+    broad = stern == 0.7
+    assert ("transom" in ah.Hull(state).lines, there.transom_area > 0.0) == (broad, broad)
+    assert state.particulars.length == pytest.approx(there.lwl, abs=1e-6)
+    assert (state.particulars.length > 50.1) == (not broad)
+
+
+def test_a_narrow_stern_that_is_open_under_water_is_told_to_be_no_transom(tmp_path: Path) -> None:
+    """It is neither drawn on nor closed; that its area counts nothing was not said."""
+    head, _, *rows = BOAT.splitlines()[1:]
+    row = "0,0.95,,,0.2,0.35,0.4,0.45,0.5,3.4,0.55"
+    state, report = boat(tmp_path, "\n".join(["# m", head, row, *rows]) + "\n")
+    assert ah.Hull(state).hydrostatics(on_error="report").transom_area == 0.0
+    assert any("count as no transom" in each for each in report.adoption.notes)
