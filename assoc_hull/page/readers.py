@@ -13,6 +13,8 @@ from collections.abc import Callable
 
 import attrs
 
+from assoc_hull.graph.derived import Gate
+
 __all__ = ["CopyReaders"]
 
 
@@ -28,34 +30,40 @@ class _Job:
     kind: object
     number: int
     act: Callable[[], None]
-    # A plain lock: Python's own code, where an exception may come, would leave it locked.
-    _gate: threading.Lock = attrs.field(factory=threading.Lock, init=False)
+    _gate: Gate = attrs.field(factory=Gate, init=False)
     _thread: int | None = attrs.field(default=None, init=False)
     _wanted: bool = attrs.field(default=True, init=False)
 
     def run(self) -> None:
         """Do it, unless it was ended before; no exception that ends it leaves this body."""
         try:
-            with self._gate:
-                if not self._wanted:
-                    return
-                self._thread = threading.get_ident()
+            if not self._gate.alone(self._begin):
+                return
             try:
                 self.act()
-            finally:
-                with self._gate:  # what was to end it until here has come when this is passed
-                    self._thread = None
+            finally:  # what was to end it until here has come when this is passed
+                self._gate.alone(self._leave)
         except _Stopped:
             return
 
+    def _begin(self) -> bool:
+        if self._wanted:
+            self._thread = threading.get_ident()
+        return self._wanted
+
+    def _leave(self) -> None:
+        self._thread = None
+
     def end(self) -> None:
         """End it, from another thread."""
-        with self._gate:
-            if self._wanted and self._thread is not None:
-                ctypes.pythonapi.PyThreadState_SetAsyncExc(
-                    ctypes.c_ulong(self._thread), ctypes.py_object(_Stopped)
-                )
-            self._wanted = False
+        self._gate.alone(self._end)
+
+    def _end(self) -> None:
+        if self._wanted and self._thread is not None:
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(
+                ctypes.c_ulong(self._thread), ctypes.py_object(_Stopped)
+            )
+        self._wanted = False
 
 
 class CopyReaders:
