@@ -524,3 +524,17 @@ def test_nil_has_a_sign_for_both_arithmetics() -> None:
     for one, other in itertools.product(cases, cases):
         told = differs(np.array([[one]]), np.array([[other]]))[0]
         assert compiled(one, other) == told, (one, other)
+
+
+def test_the_first_meeting_of_all_gives_a_point_as_any_other(shipped: Shipped) -> None:
+    """Here those before it, which give none, are left out of the tables."""
+    state = copy_state(shipped("series60_70").state)
+    program = compile_program(state, build_index(state))
+    assert program is not None
+    mine = np.sort(program.drive[: program.drive_start[1]])
+    curve, first = int(program.number[0]), int(mine[0])
+    met = state.curves.meets[curve]
+    state.curves.meets.store[curve] = met.take(np.arange(first, len(met.line)))
+    found = compile_program(state, build_index(state))
+    assert found is not None
+    assert np.sort(found.drive[: found.drive_start[1]]).tolist() == (mine - first).tolist()

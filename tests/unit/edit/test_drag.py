@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
+from unittest import mock
 
 import attrs
 import numpy as np
@@ -556,3 +557,19 @@ def test_a_drag_beside_another_has_numbers_of_its_own() -> None:
         with pytest.raises(BadInputError, match="changed since the drag began"):
             first.to(0.012)
     assert ship.verify() == ()
+
+
+def test_a_drag_that_is_over_leaves_its_numbers_to_the_next() -> None:
+    """Numbers as large as the hull are not copied anew for each drag."""
+    ship = ah.examples.wigley()
+    with ship.drag("WL 2.5 x ST 7", radius=(20.0, 4.0)) as drag:
+        drag.to(0.012)
+        assert ship.document.program.spare is None
+    left = ship.document.program.spare
+    assert left is not None
+    with (
+        mock.patch.object(LiveNumbers, "of", side_effect=AssertionError("copied")),
+        ship.drag("WL 2.5 x ST 7", radius=(20.0, 4.0)) as again,
+    ):
+        again.to(0.012)
+    assert ship.document.program.spare is left

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import pickle
 import sys
+import tracemalloc
 from types import FrameType
 from typing import Any
 
@@ -335,3 +336,21 @@ def test_a_table_from_elsewhere_has_numbers_of_writes_of_its_own() -> None:
     assert {each.writes for each in again.columns.values()}.isdisjoint(table.stamps().values())
     again.size.put(np.array([0]), np.array([5.0]))
     assert again.size.data.tolist() == [5.0, 4.0]
+
+
+def test_a_write_after_sharing_takes_no_memory_of_the_size_of_the_column() -> None:
+    """The array of before is taken again; a copy may come to lie at its address: bytes tell."""
+    column = VectorColumn(np.float64, (3,), 0.0)
+    column.resize(50_000)
+    rows, published = np.arange(5), column.share()
+    for _ in range(3):
+        column.put(rows, np.ones((5, 3)))
+        published = column.share()
+    tracemalloc.start()
+    for _ in range(5):
+        column.put(rows, np.full((5, 3), 2.0))
+        published = column.share()
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < column.data.nbytes / 10
+    assert published.data.tobytes() == column.data.tobytes()
