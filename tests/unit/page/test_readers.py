@@ -104,26 +104,26 @@ def test_no_stop_is_told_as_an_error_of_its_thread(
     """A short job is ended at its first step, its last one, or just behind it: nothing escapes."""
     told: list[str] = []
     monkeypatch.setattr(threading, "excepthook", lambda args: told.append(args.exc_type.__name__))
-    switch, begun = sys.getswitchinterval(), 0
+    switch = sys.getswitchinterval()
 
-    def short(steps: int) -> None:
-        nonlocal begun
-        begun += 1
+    def short(begun: threading.Event, steps: int) -> None:
+        begun.set()
         for _ in range(steps):
             pass
 
     sys.setswitchinterval(1e-6)
     try:
-        for number in range(3000):
-            readers.submit("anna", "list", number, partial(short, number % 50))
-            # A pause that grows lets the stop come before the job, in it and behind it.
-            for _ in range(number):
+        for number in range(2000):
+            begun = threading.Event()
+            readers.submit("anna", "list", number, partial(short, begun, number % 50))
+            if number % 2:
+                assert begun.wait(5.0)  # else the stop may come before the job
+            for _ in range(number % 97):
                 pass
             readers.stop("anna", number)
     finally:
         sys.setswitchinterval(switch)
     done = threading.Event()
-    readers.submit("anna", "list", 3000, done.set)
+    readers.submit("anna", "list", 2000, done.set)
     assert done.wait(5.0)
-    assert begun > 100
     assert told == []
