@@ -648,9 +648,9 @@ def _ends_left(table: OffsetTable, state: HullState, profile: FloatArray) -> Ite
 
 
 def _under_water(table: OffsetTable, row: int) -> str:
-    """Say that the immersed part of an end that is open counts as no transom."""
+    """Say that the immersed part of a stern that is open counts as no transom; a bow has none."""
     area = 2.0 * float(half_section_areas(table.half_breadth, table.z, table.draught)[row])
-    if not area > 0.0:
+    if row != 0 or not area > 0.0:
         return ""
     return f"; some {area:.2g} m2 of it are under water and count as no transom (A_T is 0)"
 
